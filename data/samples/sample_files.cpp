@@ -1,0 +1,39 @@
+#include "sample_files.h"
+
+#include "generate.h"
+#include "render.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace hoist {
+namespace samples {
+
+std::vector<std::filesystem::path>
+writeSamples(const std::filesystem::path& folder)
+{
+  namespace fs = std::filesystem;
+  fs::create_directories(folder / "scenes");
+  fs::create_directories(folder / "truth");
+  std::vector<fs::path> written;
+  for (const Scene& scene : sampleScenes()) {
+    const Frame frame = render(scene);
+    const fs::path pcd = folder / "scenes" / (scene.name + ".pcd");
+    if (pcl::PCDWriter().writeBinaryCompressed(pcd.string(), frame.cloud) < 0)
+      throw std::runtime_error("cannot write " + pcd.string());
+    written.push_back(pcd);
+
+    const fs::path truth = folder / "truth" / (scene.name + ".json");
+    std::ofstream out(truth, std::ios::binary);
+    out << truthJson(scene, frame.truth);
+    if (!out.flush())
+      throw std::runtime_error("cannot write " + truth.string());
+    written.push_back(truth);
+  }
+  return written;
+}
+
+} // namespace samples
+} // namespace hoist
