@@ -1,0 +1,203 @@
+#include <hoist/recognition/color.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+double
+distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+struct Known {
+  std::array<unsigned char, 3> rgb;
+  std::array<double, 3> lab;
+};
+
+// Corners of the sRGB cube in L*a*b*, D65, from the definitions by hand calculation
+// with a reference white of (0.95047, 1, 1.08883); the tolerance of 0.2 covers
+// OpenCV's tabulated gamma and cube root.
+TEST(Color, LabOfTheCubesCorners)
+{
+  const Known known[] = {{{0, 0, 0}, {0, 0, 0}},
+                         {{255, 255, 255}, {100, 0, 0}},
+                         {{255, 0, 0}, {53.24, 80.09, 67.20}},
+                         {{0, 255, 0}, {87.74, -86.18, 83.18}},
+                         {{0, 0, 255}, {32.30, 79.20, -107.86}},
+                         {{255, 255, 0}, {97.14, -21.55, 94.48}},
+                         {{119, 119, 119}, {50.03, 0, 0}}};
+  for (const Known& k : known)
+    EXPECT_LT(distance(hoist::labFromRgb(k.rgb), k.lab), 0.2)
+        << int(k.rgb[0]) << ' ' << int(k.rgb[1]) << ' ' << int(k.rgb[2]);
+}
+
+struct Named {
+  std::array<unsigned char, 3> rgb;
+  const char* name;
+};
+
+// CSS Color Module Level 4 colours that are themselves basic terms. (CSS's orange is
+// the borderline one: it keeps its name here.)
+TEST(Color, BasicColoursHaveTheirNames)
+{
+  const Named basic[] = {{{0, 0, 0}, "black"},
+                         {{255, 255, 255}, "white"},
+                         {{128, 128, 128}, "grey"},
+                         {{255, 0, 0}, "red"},
+                         {{0, 128, 0}, "green"},
+                         {{255, 255, 0}, "yellow"},
+                         {{0, 0, 255}, "blue"},
+                         {{128, 0, 128}, "purple"},
+                         {{255, 192, 203}, "pink"},
+                         {{255, 165, 0}, "orange"}};
+  for (const Named& n : basic)
+    EXPECT_EQ(hoist::colorName(hoist::labFromRgb(n.rgb)), n.name);
+}
+
+// CSS colours whose names contain one of the terms or a word that is defined by one:
+// an independent opinion on where the borders run. Nobody agrees with all of them
+// (CSS's brown is a dark red), so most must agree, not all.
+TEST(Color, AgreesWithMostOfCss)
+{
+  const Named css[] = {{{165, 42, 42}, "brown"},    {{139, 69, 19}, "brown"},
+                       {{244, 164, 96}, "orange"},  {{188, 143, 143}, "brown"},
+                       {{160, 82, 45}, "brown"},    {{210, 180, 140}, "brown"},
+                       {{255, 140, 0}, "orange"},   {{210, 105, 30}, "brown"},
+                       {{205, 92, 92}, "red"},      {{139, 0, 0}, "red"},
+                       {{178, 34, 34}, "red"},      {{220, 20, 60}, "red"},
+                       {{255, 105, 180}, "pink"},   {{255, 20, 147}, "pink"},
+                       {{255, 182, 193}, "pink"},   {{219, 112, 147}, "pink"},
+                       {{255, 215, 0}, "yellow"},   {{240, 230, 140}, "yellow"},
+                       {{154, 205, 50}, "green"},   {{144, 238, 144}, "green"},
+                       {{34, 139, 34}, "green"},    {{0, 100, 0}, "green"},
+                       {{46, 139, 87}, "green"},    {{50, 205, 50}, "green"},
+                       {{85, 107, 47}, "green"},    {{128, 128, 0}, "green"},
+                       {{0, 255, 127}, "green"},    {{0, 0, 128}, "blue"},
+                       {{65, 105, 225}, "blue"},    {{70, 130, 180}, "blue"},
+                       {{135, 206, 235}, "blue"},   {{173, 216, 230}, "blue"},
+                       {{100, 149, 237}, "blue"},   {{30, 144, 255}, "blue"},
+                       {{25, 25, 112}, "blue"},     {{95, 158, 160}, "blue"},
+                       {{75, 0, 130}, "purple"},    {{147, 112, 219}, "purple"},
+                       {{138, 43, 226}, "purple"},  {{153, 50, 204}, "purple"},
+                       {{238, 130, 238}, "purple"}, {{102, 51, 153}, "purple"},
+                       {{211, 211, 211}, "grey"},   {{169, 169, 169}, "grey"},
+                       {{105, 105, 105}, "grey"},   {{112, 128, 144}, "grey"},
+                       {{245, 245, 245}, "white"},  {{250, 235, 215}, "white"},
+                       {{255, 250, 240}, "white"},  {{240, 248, 255}, "white"},
+                       {{248, 248, 255}, "white"}};
+  int agreed = 0, all = 0;
+  for (const Named& n : css) {
+    const std::string name = hoist::colorName(hoist::labFromRgb(n.rgb));
+    agreed += name == n.name ? 1 : 0;
+    ++all;
+    if (name != n.name)
+      std::printf("%3d %3d %3d: %s, CSS says %s\n",
+                  n.rgb[0],
+                  n.rgb[1],
+                  n.rgb[2],
+                  name.c_str(),
+                  n.name);
+  }
+  EXPECT_GE(agreed, all * 85 / 100) << agreed << " of " << all;
+}
+
+TEST(Color, EveryColourHasOneOfTheElevenNames)
+{
+  const std::array<const char*, 11> names = {"black",
+                                             "white",
+                                             "grey",
+                                             "red",
+                                             "green",
+                                             "yellow",
+                                             "blue",
+                                             "brown",
+                                             "purple",
+                                             "pink",
+                                             "orange"};
+  std::array<int, 11> uses{};
+  for (int r = 0; r < 256; r += 17)
+    for (int g = 0; g < 256; g += 17)
+      for (int b = 0; b < 256; b += 17) {
+        const std::string name =
+            hoist::colorName(hoist::labFromRgb({static_cast<unsigned char>(r),
+                                                static_cast<unsigned char>(g),
+                                                static_cast<unsigned char>(b)}));
+        const auto it = std::find(names.begin(), names.end(), name);
+        ASSERT_NE(it, names.end()) << name;
+        ++uses[static_cast<std::size_t>(it - names.begin())];
+      }
+  for (std::size_t i = 0; i < names.size(); ++i)
+    EXPECT_GT(uses[i], 0) << names[i] << " is never used";
+}
+
+TEST(DominantColor, NoPixelsNoColour)
+{
+  hoist::Color color;
+  color.rgb = {1, 2, 3};
+  EXPECT_FALSE(hoist::dominantColor({}, color));
+  EXPECT_EQ(color.rgb, (std::array<unsigned char, 3>{0, 0, 0}));
+}
+
+TEST(DominantColor, OneColourIsReturnedAsItIs)
+{
+  std::mt19937 generator(3);
+  std::uniform_int_distribution<int> any(0, 255);
+  for (int i = 0; i < 50; ++i) {
+    const cv::Vec3b bgr(any(generator), any(generator), any(generator));
+    hoist::Color color;
+    ASSERT_TRUE(hoist::dominantColor(std::vector<cv::Vec3b>(7, bgr), color));
+    // one 8 bit step: to Lab and back again is rounded once
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(color.rgb[c], bgr[2 - c], 1);
+  }
+}
+
+class Print : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(DominantColor, Print, testing::Range(0, 10));
+
+// A carton, 55 % of its pixels, under noise and three shades, with red and white print.
+TEST_P(Print, DoesNotPullTheColour)
+{
+  std::mt19937 generator(GetParam());
+  std::normal_distribution<double> noise(0.0, 6.0);
+  std::vector<cv::Vec3b> pixels;
+  const auto add = [&](double r, double g, double b, int n) {
+    for (int i = 0; i < n; ++i)
+      pixels.emplace_back(cv::saturate_cast<unsigned char>(b + noise(generator)),
+                          cv::saturate_cast<unsigned char>(g + noise(generator)),
+                          cv::saturate_cast<unsigned char>(r + noise(generator)));
+  };
+  add(181, 137, 92, 300);
+  add(168, 127, 85, 250); // the next face, in less light
+  add(200, 30, 40, 250);
+  add(245, 245, 240, 200);
+  hoist::Color color;
+  ASSERT_TRUE(hoist::dominantColor(pixels, color));
+  EXPECT_EQ(hoist::colorName(color.lab), "brown");
+  // between the two shades, or within the noise of one
+  EXPECT_LT(std::min(distance(color.lab, hoist::labFromRgb({181, 137, 92})),
+                     distance(color.lab, hoist::labFromRgb({168, 127, 85}))),
+            4.0);
+}
+
+TEST_P(Print, OrderOfThePixelsDoesNotMatter)
+{
+  std::mt19937 generator(GetParam());
+  std::uniform_int_distribution<int> any(0, 255);
+  std::vector<cv::Vec3b> pixels;
+  for (int i = 0; i < 500; ++i)
+    pixels.emplace_back(
+        any(generator) / 4, 128 + any(generator) / 4, any(generator) / 8);
+  hoist::Color first, second;
+  ASSERT_TRUE(hoist::dominantColor(pixels, first));
+  std::shuffle(pixels.begin(), pixels.end(), generator);
+  ASSERT_TRUE(hoist::dominantColor(pixels, second));
+  EXPECT_EQ(first.rgb, second.rgb);
+}
+
+} // namespace
