@@ -1,5 +1,7 @@
 #include <hoist/data/cuboid.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 

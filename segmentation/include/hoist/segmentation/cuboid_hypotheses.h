@@ -1,0 +1,64 @@
+#pragma once
+
+#include <hoist/data/cuboid.h>
+#include <hoist/data/result.h>
+#include <hoist/segmentation/face_borders.h>
+#include <hoist/segmentation/planar_faces.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace hoist {
+
+/** \brief A box that may be there. Camera frame, metres.
+ *
+ * The box is axes * [lower, upper]: its points have axes^T x between lower and upper.
+ */
+struct CuboidHypothesis {
+  Eigen::Matrix3d axes; ///< right handed
+  Eigen::Vector3d lower, upper;
+  /// Ends that were seen; lower 0, upper 0, lower 1, ... false: only a bound.
+  std::array<bool, 6> seen{};
+  std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
+  CuboidModel model = CuboidModel::faces;
+
+  Eigen::Vector3d
+  center() const
+  {
+    return axes * (lower + upper) / 2;
+  }
+  Eigen::Vector3d
+  size() const
+  {
+    return upper - lower;
+  }
+};
+
+struct CuboidHypothesisParameters {
+  SensorModel sensor;
+  double min_side = 0.015; ///< [m]
+  double max_side = 5.0;   ///< [m]
+  /// Faces whose angle differs from 90 degrees by more, beyond their own tilt
+  /// uncertainty, are no pair [rad]. Kinects whose principal point is off show true
+  /// right angles at 88 to 92 degrees.
+  double angle_tolerance = 0.12;
+};
+
+/** \brief Boxes from pairs of perpendicular faces that meet convexly.
+ *
+ * The pair fixes the orientation and one end of two axes; the other four ends are where
+ * the outlines of the two faces pile up along each axis (a vote in one dimension, the
+ * Hough transform of a line of known direction). Where the faces disagree, each
+ * combination becomes a hypothesis of its own.
+ */
+HOIST_SEGMENTATION_EXPORT void
+cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
+                     const FaceBorders& borders,
+                     const Intrinsics& camera,
+                     const CuboidHypothesisParameters& parameters,
+                     std::vector<CuboidHypothesis>& hypotheses,
+                     Diagnostics& diagnostics);
+
+} // namespace hoist

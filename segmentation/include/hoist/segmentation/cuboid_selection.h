@@ -1,0 +1,31 @@
+#pragma once
+
+#include <hoist/segmentation/cuboid_verification.h>
+
+#include <vector>
+
+namespace hoist {
+
+/** \brief A hypothesis with its evidence. */
+struct CuboidCandidate {
+  CuboidHypothesis hypothesis;
+  CuboidEvidence evidence;
+};
+
+/** \brief Chooses the set of candidates that explains the most of the frame without
+ *  explaining anything twice.
+ *
+ * Value of a set: the supported pixels of its members, each weighted by its member's
+ * score. Two members exclude each other if they share more than a quarter of the
+ * smaller one's pixels or of its volume. Greedy by value, then single exchanges until
+ * none helps.
+ *
+ * \param chosen out: indices into candidates, best score first
+ */
+HOIST_SEGMENTATION_EXPORT void
+selectCuboids(const std::vector<CuboidCandidate>& candidates,
+              double min_score,
+              int frame_pixels,
+              std::vector<int>& chosen);
+
+} // namespace hoist

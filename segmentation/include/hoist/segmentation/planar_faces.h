@@ -1,0 +1,100 @@
+#pragma once
+
+#include <hoist/data/intrinsics.h>
+#include <hoist/data/sensor_model.h>
+#include <hoist/segmentation/export.h>
+
+#include <Eigen/Core>
+
+#include <opencv2/core.hpp>
+
+#include <vector>
+
+namespace hoist {
+
+/** \brief A connected flat piece of the frame.
+ *
+ * A plane is linear in inverse depth: 1/z = a u + b v + c at pixel (u, v), and a depth
+ * camera's noise is nearly constant there, so the least squares fit needs no weights.
+ */
+struct PlanarFace {
+  Eigen::Vector3d inverse_depth; ///< (a, b, c) [1/(m px), 1/(m px), 1/m]
+  Eigen::Vector3d normal;        ///< unit normal, towards the camera
+  double offset = 0;             ///< normal . x + offset = 0 [m], offset > 0
+  Eigen::Vector3d centroid;      ///< mean point [m]
+  int pixels = 0;                ///< size of the piece
+  double rms = 0;                ///< residual of the fit in units of the sensor's sigma
+  double normal_sigma = 0;       ///< standard deviation of the weakest tilt [rad]
+  cv::Rect box;                  ///< bounding box in the image
+};
+
+struct PlanarFaceParameters {
+  SensorModel sensor;
+  double mean_tolerance = 2.0;  ///< cell mean against the plane [sigma]
+  double rms_tolerance = 2.5;   ///< cell rms against the plane [sigma]
+  double pixel_tolerance = 3.0; ///< single pixel against the plane [sigma]
+  int min_pixels = 60;          ///< smaller pieces are dropped
+};
+
+/** \brief Splits the frame into flat pieces by growing regions of 4 x 4 pixel cells,
+ * then gives every pixel near a border to the plane it fits best, which puts creases
+ * where the planes meet.
+ *
+ * Seeds are windows of 16, 8 and 4 x 16 pixels, the flattest first, so that large faces
+ * are found before thin ones. Keeps its buffers from frame to frame.
+ */
+class HOIST_SEGMENTATION_EXPORT PlanarFaceFinder {
+public:
+  /** \param inverse_depth height x width [1/m], 0 where not measured
+   *  \param camera valid intrinsics of the image
+   *  \param mask pixels to use (non-zero), same size, or empty
+   *  \param labels out: number of the face + 1, 0 where none; same size
+   *  \param faces out: cleared first */
+  void find(const cv::Mat1f& inverse_depth,
+            const cv::Mat1b& mask,
+            const Intrinsics& camera,
+            const PlanarFaceParameters& parameters,
+            cv::Mat1s& labels,
+            std::vector<PlanarFace>& faces);
+
+private:
+  /// Sums over the measured pixels of a cell or region, for the plane fit.
+  struct Moments {
+    double n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0, w = 0, uw = 0, vw = 0, ww = 0;
+
+    Moments& operator+=(const Moments& o);
+
+    bool fit(Eigen::Vector3d& plane) const;
+
+    /// Mean and mean square of w - plane.
+    void residual(const Eigen::Vector3d& plane, double& mean, double& square) const;
+  };
+  struct Seed {
+    float quality;
+    int cell;
+  };
+
+  void sumCells(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask);
+  void collectSeeds(int window_width, int window_height);
+  bool growFrom(const Seed& seed, int window_width, int window_height);
+  void mergeCoplanar();
+  void
+  labelPixels(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask, cv::Mat1s& labels);
+  void describe(const cv::Mat1f& inverse_depth,
+                const Intrinsics& camera,
+                cv::Mat1s& labels,
+                std::vector<PlanarFace>& faces);
+  double sigma(double inverse_depth) const;
+
+  PlanarFaceParameters parameters_;
+  int columns_ = 0, rows_ = 0; // grid of cells
+  std::vector<Moments> cells_;
+  std::vector<short> owner_; // region + 1 of each cell
+  std::vector<Seed> seeds_;
+  std::vector<int> queue_, next_;
+  std::vector<Eigen::Vector3d> planes_;
+  std::vector<Moments> sums_;
+  std::vector<float> sigma_table_; // sigma of inverse depth by inverse depth
+};
+
+} // namespace hoist

@@ -1,0 +1,214 @@
+#include <hoist/segmentation/cuboid_hypotheses.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hoist {
+namespace {
+
+// Where a face ends along a direction.
+struct End {
+  double value = 0;  // coordinate along the direction [m]
+  bool seen = false; // false: the face is covered there, value is only a bound
+  int votes = 0;
+};
+
+class Ends {
+public:
+  Ends(const FaceBorders& borders) : borders_(borders) {}
+
+  // The end of a face along unit vector d. Window: width of a pile of votes [m].
+  End
+  find(int face, const Eigen::Vector3d& d, double window)
+  {
+    votes_.clear();
+    double farthest = -std::numeric_limits<double>::max();
+    const Eigen::Vector3f direction = d.cast<float>();
+    const int first = borders_.first[face], last = borders_.first[face + 1];
+    for (int i = first; i < last; ++i) {
+      const BorderElement& e = borders_.elements[i];
+      const float t = direction.dot(e.point);
+      farthest = std::max(farthest, static_cast<double>(t));
+      if ((e.kind == BorderKind::crease || e.kind == BorderKind::jump ||
+           e.kind == BorderKind::open) &&
+          direction.dot(e.outward) > 0.3f)
+        votes_.push_back(t);
+    }
+    End end;
+    end.value = farthest;
+    if (votes_.empty())
+      return end;
+    std::sort(votes_.begin(), votes_.end());
+    // the highest pile, then the outermost one that comes near it
+    int highest = 0;
+    const auto pile = [&](std::size_t hi, std::size_t& lo) {
+      while (votes_[hi] - votes_[lo] > window)
+        ++lo;
+      return static_cast<int>(hi - lo + 1);
+    };
+    std::size_t lo = 0;
+    for (std::size_t hi = 0; hi < votes_.size(); ++hi)
+      highest = std::max(highest, pile(hi, lo));
+    const int enough = std::max(4, static_cast<int>(0.4 * highest));
+    lo = 0;
+    for (std::size_t hi = 0; hi < votes_.size(); ++hi) {
+      const int count = pile(hi, lo);
+      if (count >= enough) {
+        end.value = votes_[lo + (hi - lo) / 2];
+        end.votes = count;
+        end.seen = true;
+      }
+    }
+    // Much of the outline beyond the pile and covered there: the pile is not the end.
+    if (end.seen) {
+      int beyond = 0;
+      for (int i = first; i < last; ++i)
+        beyond += direction.dot(borders_.elements[i].point) > end.value + window;
+      if (beyond > 0.15 * (last - first) && farthest > end.value + 3 * window) {
+        end.seen = false;
+        end.value = farthest;
+      }
+    }
+    return end;
+  }
+
+private:
+  const FaceBorders& borders_;
+  std::vector<float> votes_;
+};
+
+bool
+near(const cv::Rect& a, const cv::Rect& b)
+{
+  constexpr int reach = 12; // [px]
+  return a.x - reach < b.x + b.width && b.x - reach < a.x + a.width &&
+         a.y - reach < b.y + b.height && b.y - reach < a.y + a.height;
+}
+
+} // namespace
+
+void
+cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
+                     const FaceBorders& borders,
+                     const Intrinsics& camera,
+                     const CuboidHypothesisParameters& parameters,
+                     std::vector<CuboidHypothesis>& hypotheses,
+                     Diagnostics& diagnostics)
+{
+  Ends ends(borders);
+  const auto n = static_cast<int>(faces.size());
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const PlanarFace &fi = faces[i], &fj = faces[j];
+      if (!near(fi.box, fj.box))
+        continue;
+      const double tilt = std::hypot(fi.normal_sigma, fj.normal_sigma);
+      const double tolerance = parameters.angle_tolerance + std::min(0.15, 2 * tilt);
+      const double cosine = fi.normal.dot(fj.normal);
+      if (std::abs(cosine) > tolerance)
+        continue;
+      // convex: each lies behind the other
+      if (fi.normal.dot(fj.centroid) + fi.offset > 0 ||
+          fj.normal.dot(fi.centroid) + fj.offset > 0)
+        continue;
+      diagnostics.counts.add("perpendicular face pairs");
+
+      // Right angle: the better known normal moves less.
+      const double vi = fi.normal_sigma * fi.normal_sigma + 1e-8;
+      const double vj = fj.normal_sigma * fj.normal_sigma + 1e-8;
+      CuboidHypothesis h;
+      const Eigen::Vector3d a =
+          (fi.normal - fj.normal * cosine * vi / (vi + vj)).normalized();
+      Eigen::Vector3d b = fj.normal - a * a.dot(fj.normal);
+      b.normalize();
+      h.axes.col(0) = a;
+      h.axes.col(1) = b;
+      h.axes.col(2) = a.cross(b);
+      h.faces = {i, j};
+      const Eigen::Vector3d& c = h.axes.col(2);
+      h.upper[0] = a.dot(fi.centroid);
+      h.upper[1] = b.dot(fj.centroid);
+
+      const double z = 0.5 * (fi.centroid.z() + fj.centroid.z());
+      const double pixel = z / std::min(camera.fx, camera.fy);
+      const double sigma = parameters.sensor.sigmaZ(z);
+      const double window = 2 * pixel + sigma;
+
+      // They must meet: each reaches the other's plane.
+      const double gate = 4 * pixel + 3 * sigma;
+      const End i_b = ends.find(i, b, window), j_a = ends.find(j, a, window);
+      const double gap_i = h.upper[1] - i_b.value, gap_j = h.upper[0] - j_a.value;
+      if ((i_b.seen && std::abs(gap_i) > gate) ||
+          (j_a.seen && std::abs(gap_j) > gate) || gap_i < -2 * gate ||
+          gap_j < -2 * gate || gap_i > 0.5 || gap_j > 0.5) {
+        diagnostics.rejected.add("faces do not meet");
+        continue;
+      }
+      const End i_back = ends.find(i, -b, window), j_back = ends.find(j, -a, window);
+      h.lower[1] = -i_back.value;
+      h.lower[0] = -j_back.value;
+      const End i_up = ends.find(i, c, window), j_up = ends.find(j, c, window);
+      const End i_down = ends.find(i, -c, window), j_down = ends.find(j, -c, window);
+      // they share a part of the edge
+      const double overlap =
+          std::min(i_up.value, j_up.value) - std::max(-i_down.value, -j_down.value);
+      const double shorter =
+          std::min(i_up.value + i_down.value, j_up.value + j_down.value);
+      if (overlap < 0.25 * shorter || shorter <= 0) {
+        diagnostics.rejected.add("faces do not meet");
+        continue;
+      }
+      h.seen = {j_back.seen, true, i_back.seen, true, false, false};
+
+      // Ends along the shared edge: both faces have their say.
+      struct Choice {
+        double value;
+        bool seen;
+      };
+      const auto choices = [&](const End& p, const End& q, Choice out[2]) {
+        if (p.seen && q.seen) {
+          if (std::abs(p.value - q.value) < window) {
+            out[0] = {(p.value * p.votes + q.value * q.votes) / (p.votes + q.votes),
+                      true};
+            return 1;
+          }
+          out[0] = {std::max(p.value, q.value), true};
+          out[1] = {std::min(p.value, q.value), true};
+          return 2;
+        }
+        if (!p.seen && !q.seen) {
+          out[0] = {std::max(p.value, q.value), false};
+          return 1;
+        }
+        const End& s = p.seen ? p : q;
+        const End& hidden = p.seen ? q : p;
+        out[0] = {s.value, true};
+        if (hidden.value > s.value + window) {
+          out[1] = {hidden.value, false};
+          return 2;
+        }
+        return 1;
+      };
+      Choice up[2], down[2];
+      const int ups = choices(i_up, j_up, up), downs = choices(i_down, j_down, down);
+      for (int x = 0; x < ups; ++x)
+        for (int y = 0; y < downs; ++y) {
+          h.upper[2] = up[x].value;
+          h.lower[2] = -down[y].value;
+          h.seen[5] = up[x].seen;
+          h.seen[4] = down[y].seen;
+          const Eigen::Vector3d size = h.size();
+          if (size.minCoeff() < parameters.min_side ||
+              size.maxCoeff() > parameters.max_side) {
+            diagnostics.rejected.add("side length outside the limits");
+            continue;
+          }
+          hypotheses.push_back(h);
+        }
+    }
+}
+
+} // namespace hoist
