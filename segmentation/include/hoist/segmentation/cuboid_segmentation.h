@@ -28,9 +28,7 @@ enum class SegmentationMode {
 template <typename PointT>
 class CuboidSegmentation : public pcl::PCLBase<PointT> {
   using Base = pcl::PCLBase<PointT>;
-  using Base::deinitCompute;
   using Base::indices_;
-  using Base::initCompute;
   using Base::input_;
   using Base::use_indices_;
 

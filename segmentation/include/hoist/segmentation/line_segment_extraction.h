@@ -24,7 +24,6 @@ template <typename PointT>
 class LineSegmentExtraction : public pcl::PCLBase<PointT> {
   using Base = pcl::PCLBase<PointT>;
   using Base::deinitCompute;
-  using Base::fake_indices_;
   using Base::indices_;
   using Base::initCompute;
   using Base::input_;
