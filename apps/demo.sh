@@ -14,12 +14,12 @@ for argument in "$@"; do
   [ ! -f "$argument" ] || named=true
 done
 if [ "$named" = false ]; then
-  inputs+=("$hoist_root"/data/samples/*.pcd)
+  inputs+=("$hoist_root"/data/samples/scenes/*.pcd)
 fi
 
 install_packages "${hoist_packages[@]}"
 echo "Building hoist in ${hoist_build#"$PWD"/}"
-configure
+configure -DHOIST_BUILD_APPS=ON
 build hoist
 "$hoist_build/apps/hoist" recognize "${inputs[@]}" -o "$output"
 hand_over "$hoist_root/build" "$output"

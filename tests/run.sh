@@ -10,7 +10,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/../.ci/setup.sh"
 install_packages "${hoist_packages[@]}" "${hoist_test_packages[@]}"
 echo "Building hoist and its tests in ${hoist_build#"$PWD"/}"
 configure -DHOIST_BUILD_APPS=ON -DHOIST_BUILD_TESTS=ON
-build
+build all
 hand_over "$hoist_root/build"
 trap - ERR # ctest says itself what failed
 ctest --test-dir "$hoist_build" --output-on-failure --parallel "$(parallel_jobs)" "$@"
