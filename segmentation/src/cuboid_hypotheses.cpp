@@ -75,10 +75,55 @@ public:
     return end;
   }
 
+  // The outermost end of several coplanar faces.
+  End
+  find(const std::array<int, 2>& group, const Eigen::Vector3d& d, double window)
+  {
+    const End a = find(group[0], d, window);
+    if (group[1] < 0)
+      return a;
+    const End b = find(group[1], d, window);
+    if (std::abs(a.value - b.value) < window && a.seen != b.seen)
+      return a.seen ? a : b;
+    return a.value > b.value ? a : b;
+  }
+
 private:
   const FaceBorders& borders_;
   std::vector<float> votes_;
 };
+
+// Faces that continue face i behind something that covers it, as seen from its pair j.
+void
+coplanarPartners(const std::vector<PlanarFace>& faces,
+                 int i,
+                 int j,
+                 const SensorModel& sensor,
+                 double max_side,
+                 std::vector<int>& partners)
+{
+  const PlanarFace& f = faces[i];
+  for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
+    const PlanarFace& g = faces[k];
+    if (k == i || k == j)
+      continue;
+    const double tilt = 0.1 + std::min(0.2, 2 * std::hypot(f.normal_sigma, g.normal_sigma));
+    if (f.normal.dot(g.normal) < std::cos(tilt))
+      continue;
+    if ((f.centroid - g.centroid).norm() > max_side)
+      continue;
+    const double sigma = sensor.sigmaZ(std::max(f.centroid.z(), g.centroid.z()));
+    // the larger one's plane is the better known
+    const PlanarFace& large = f.pixels > g.pixels ? f : g;
+    const PlanarFace& small = f.pixels > g.pixels ? g : f;
+    if (std::abs(large.normal.dot(small.centroid) + large.offset) > 4 * sigma)
+      continue;
+    // the pair must still be convex
+    if (faces[j].normal.dot(g.centroid) + faces[j].offset > 2 * sigma)
+      continue;
+    partners.push_back(k);
+  }
+}
 
 bool
 near(const cv::Rect& a, const cv::Rect& b)
@@ -99,39 +144,12 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
                      Diagnostics& diagnostics)
 {
   Ends ends(borders);
-  const auto n = static_cast<int>(faces.size());
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < n; ++j) {
-      const PlanarFace &fi = faces[i], &fj = faces[j];
-      if (!near(fi.box, fj.box))
-        continue;
-      const double tilt = std::hypot(fi.normal_sigma, fj.normal_sigma);
-      const double tolerance = parameters.angle_tolerance + std::min(0.15, 2 * tilt);
-      const double cosine = fi.normal.dot(fj.normal);
-      if (std::abs(cosine) > tolerance)
-        continue;
-      // convex: each lies behind the other
-      if (fi.normal.dot(fj.centroid) + fi.offset > 0 ||
-          fj.normal.dot(fi.centroid) + fj.offset > 0)
-        continue;
-      diagnostics.counts.add("perpendicular face pairs");
-
-      // Right angle: the better known normal moves less.
-      const double vi = fi.normal_sigma * fi.normal_sigma + 1e-8;
-      const double vj = fj.normal_sigma * fj.normal_sigma + 1e-8;
-      CuboidHypothesis h;
-      const Eigen::Vector3d a =
-          (fi.normal - fj.normal * cosine * vi / (vi + vj)).normalized();
-      Eigen::Vector3d b = fj.normal - a * a.dot(fj.normal);
-      b.normalize();
-      h.axes.col(0) = a;
-      h.axes.col(1) = b;
-      h.axes.col(2) = a.cross(b);
-      h.faces = {i, j};
-      const Eigen::Vector3d& c = h.axes.col(2);
-      h.upper[0] = a.dot(fi.centroid);
-      h.upper[1] = b.dot(fj.centroid);
-
+  std::array<std::vector<int>, 2> partners;
+  const auto addHypotheses = [&](const std::array<int, 2>& group_i,
+                                 const std::array<int, 2>& group_j,
+                                 CuboidHypothesis h) {
+      const PlanarFace &fi = faces[group_i[0]], &fj = faces[group_j[0]];
+      const Eigen::Vector3d a = h.axes.col(0), b = h.axes.col(1), c = h.axes.col(2);
       const double z = 0.5 * (fi.centroid.z() + fj.centroid.z());
       const double pixel = z / std::min(camera.fx, camera.fy);
       const double sigma = parameters.sensor.sigmaZ(z);
@@ -139,19 +157,19 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
 
       // They must meet: each reaches the other's plane.
       const double gate = 4 * pixel + 3 * sigma;
-      const End i_b = ends.find(i, b, window), j_a = ends.find(j, a, window);
+      const End i_b = ends.find(group_i, b, window), j_a = ends.find(group_j, a, window);
       const double gap_i = h.upper[1] - i_b.value, gap_j = h.upper[0] - j_a.value;
       if ((i_b.seen && std::abs(gap_i) > gate) ||
           (j_a.seen && std::abs(gap_j) > gate) || gap_i < -2 * gate ||
           gap_j < -2 * gate || gap_i > 0.5 || gap_j > 0.5) {
         diagnostics.rejected.add("faces do not meet");
-        continue;
+        return;
       }
-      const End i_back = ends.find(i, -b, window), j_back = ends.find(j, -a, window);
+      const End i_back = ends.find(group_i, -b, window), j_back = ends.find(group_j, -a, window);
       h.lower[1] = -i_back.value;
       h.lower[0] = -j_back.value;
-      const End i_up = ends.find(i, c, window), j_up = ends.find(j, c, window);
-      const End i_down = ends.find(i, -c, window), j_down = ends.find(j, -c, window);
+      const End i_up = ends.find(group_i, c, window), j_up = ends.find(group_j, c, window);
+      const End i_down = ends.find(group_i, -c, window), j_down = ends.find(group_j, -c, window);
       // they share a part of the edge
       const double overlap =
           std::min(i_up.value, j_up.value) - std::max(-i_down.value, -j_down.value);
@@ -159,9 +177,17 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
           std::min(i_up.value + i_down.value, j_up.value + j_down.value);
       if (overlap < 0.25 * shorter || shorter <= 0) {
         diagnostics.rejected.add("faces do not meet");
-        continue;
+        return;
       }
-      h.seen = {j_back.seen, true, i_back.seen, true, false, false};
+      const auto source = [](bool seen) {
+        return seen ? EndSource::seen : EndSource::bound;
+      };
+      h.ends = {source(j_back.seen),
+                EndSource::seen,
+                source(i_back.seen),
+                EndSource::seen,
+                EndSource::bound,
+                EndSource::bound};
 
       // Ends along the shared edge: both faces have their say.
       struct Choice {
@@ -198,8 +224,8 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
         for (int y = 0; y < downs; ++y) {
           h.upper[2] = up[x].value;
           h.lower[2] = -down[y].value;
-          h.seen[5] = up[x].seen;
-          h.seen[4] = down[y].seen;
+          h.ends[5] = source(up[x].seen);
+          h.ends[4] = source(down[y].seen);
           const Eigen::Vector3d size = h.size();
           if (size.minCoeff() < parameters.min_side ||
               size.maxCoeff() > parameters.max_side) {
@@ -208,6 +234,98 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
           }
           hypotheses.push_back(h);
         }
+  };
+  const auto n = static_cast<int>(faces.size());
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j) {
+      const PlanarFace &fi = faces[i], &fj = faces[j];
+      if (!near(fi.box, fj.box))
+        continue;
+      const double tilt = std::hypot(fi.normal_sigma, fj.normal_sigma);
+      const double tolerance = parameters.angle_tolerance + std::min(0.15, 2 * tilt);
+      const double cosine = fi.normal.dot(fj.normal);
+      if (std::abs(cosine) > tolerance)
+        continue;
+      // convex: each lies behind the other
+      if (fi.normal.dot(fj.centroid) + fi.offset > 0 ||
+          fj.normal.dot(fi.centroid) + fj.offset > 0)
+        continue;
+      diagnostics.counts.add("perpendicular face pairs");
+
+      // Right angle: the better known normal moves less.
+      const double vi = fi.normal_sigma * fi.normal_sigma + 1e-8;
+      const double vj = fj.normal_sigma * fj.normal_sigma + 1e-8;
+      CuboidHypothesis h;
+      const Eigen::Vector3d a =
+          (fi.normal - fj.normal * cosine * vi / (vi + vj)).normalized();
+      Eigen::Vector3d b = fj.normal - a * a.dot(fj.normal);
+      b.normalize();
+      h.axes.col(0) = a;
+      h.axes.col(1) = b;
+      h.axes.col(2) = a.cross(b);
+      h.faces = {i, j};
+      h.upper[0] = a.dot(fi.centroid);
+      h.upper[1] = b.dot(fj.centroid);
+
+      partners[0].assign(1, -1);
+      partners[1].assign(1, -1);
+      coplanarPartners(faces, i, j, parameters.sensor, parameters.max_side, partners[0]);
+      coplanarPartners(faces, j, i, parameters.sensor, parameters.max_side, partners[1]);
+      const CuboidHypothesis base = h;
+      for (const int pi : partners[0])
+        for (const int pj : partners[1]) {
+          h = base;
+          addHypotheses({i, pi}, {j, pj}, h);
+        }
+    }
+}
+
+void
+extendToSupport(const std::vector<PlanarFace>& faces,
+                const CuboidHypothesisParameters& parameters,
+                std::vector<CuboidHypothesis>& hypotheses)
+{
+  const std::size_t n = hypotheses.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int f = 0; f < 6; ++f) {
+      const CuboidHypothesis h = hypotheses[i];
+      if (h.ends[f] != EndSource::bound)
+        continue;
+      const int axis = f / 2;
+      const double side = f % 2 == 0 ? -1.0 : 1.0;
+      const Eigen::Vector3d outward = side * h.axes.col(axis);
+      // the middle of the end
+      Eigen::Vector3d local = (h.lower + h.upper) / 2;
+      local[axis] = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
+      const Eigen::Vector3d end = h.axes * local;
+      const double reach = h.size().norm();
+      double nearest = reach;
+      for (const PlanarFace& g : faces) {
+        constexpr double max_cosine = -0.98; // looks back at the box
+        constexpr double min_area_share = 4; // a support is larger than a fragment
+        if (outward.dot(g.normal) > max_cosine)
+          continue;
+        const double distance = -(g.normal.dot(end) + g.offset) / g.normal.dot(outward);
+        const double sigma = parameters.sensor.sigmaZ(end.z());
+        const Eigen::Vector3d foot = end + distance * outward;
+        const Eigen::Vector3d away = g.centroid - foot;
+        const double extent = std::sqrt(static_cast<double>(g.pixels)) *
+                              g.centroid.z() / 500; // rough radius [m]
+        if (distance < 2 * sigma || distance >= nearest ||
+            away.norm() > min_area_share * extent)
+          continue;
+        nearest = distance;
+      }
+      if (nearest >= reach)
+        continue;
+      CuboidHypothesis longer = h;
+      if (f % 2 == 0)
+        longer.lower[axis] -= nearest;
+      else
+        longer.upper[axis] += nearest;
+      longer.ends[f] = EndSource::support;
+      if (longer.size().maxCoeff() <= parameters.max_side)
+        hypotheses.push_back(longer);
     }
 }
 

@@ -20,6 +20,37 @@ struct SidePlane {
   }
 };
 
+// A face is judged patch by patch: single pixels are noisy, the mean of a patch is not.
+constexpr int patches = 6; // along either side
+
+struct Patch {
+  int support = 0, occluded = 0, contradiction = 0, missing = 0;
+  double sum = 0; // of the supporting residuals, along the normal [m]
+};
+
+using PatchGrid = std::array<Patch, static_cast<std::size_t>(patches) * patches>;
+
+// Share of the uncovered patches whose mean lies on the face.
+double
+flatShare(const PatchGrid& grid, double noise, double tolerance)
+{
+  double good = 0, bad = 0;
+  for (const Patch& p : grid) {
+    const int open = p.support + p.contradiction + p.missing;
+    if (open < 2 || p.occluded > open)
+      continue;
+    // nothing measured is weak evidence against, seen through is strong
+    const double weight = p.support + p.contradiction + 0.5 * p.missing;
+    const double limit = tolerance + 2 * noise / std::sqrt(std::max(1, p.support));
+    if (p.support > p.contradiction + p.missing &&
+        std::abs(p.sum / p.support) < limit)
+      good += weight;
+    else
+      bad += weight;
+  }
+  return good + bad > 0 ? good / (good + bad) : 0;
+}
+
 // The plane n . x = d in inverse depth.
 SidePlane
 toPixels(const Eigen::Vector3d& n, double d, const Intrinsics& k)
@@ -37,6 +68,8 @@ toPixels(const Eigen::Vector3d& n, double d, const Intrinsics& k)
 void
 verifyCuboid(const CuboidHypothesis& h,
              const cv::Mat1f& image,
+             const cv::Mat1s& labels,
+             const std::vector<PlanarFace>& faces,
              const Intrinsics& camera,
              const SensorModel& sensor,
              int max_samples,
@@ -44,7 +77,7 @@ verifyCuboid(const CuboidHypothesis& h,
 {
   evidence.faces = {};
   evidence.visible = {};
-  evidence.edge_good = evidence.edge_bad = 0;
+  evidence.edges.clear();
   evidence.score = 0;
   evidence.support.clear();
 
@@ -119,6 +152,8 @@ verifyCuboid(const CuboidHypothesis& h,
       std::max(1, static_cast<int>(std::lround(std::sqrt(area / max_samples))));
   evidence.stride = stride;
 
+  std::array<PatchGrid, 3> grids{}; // of the visible faces, in the order of front
+  const Eigen::Vector3d middle = (h.lower + h.upper) / 2, half = h.size() / 2;
   for (int v = top; v <= bottom; v += stride) {
     const float* row = image[v];
     for (int u = left; u <= right; u += stride) {
@@ -130,7 +165,7 @@ verifyCuboid(const CuboidHypothesis& h,
         const double w = planes[front[k]].at(u, v);
         if (w < enter) {
           enter = w;
-          face = front[k];
+          face = k;
         }
       }
       if (enter <= 0)
@@ -140,27 +175,51 @@ verifyCuboid(const CuboidHypothesis& h,
         inside = planes[hidden[k]].at(u, v) < enter;
       if (!inside)
         continue;
-      FaceEvidence& e = evidence.faces[face];
+      const int axis = front[face] / 2, p = (axis + 1) % 3, q = (axis + 2) % 3;
+      const double bound = front[face] % 2 == 0 ? h.lower[axis] : h.upper[axis];
+      const Eigen::Vector3d ray = h.axes.transpose() * camera.ray(u, v);
+      const auto cell = [&](int i) {
+        const double t = (ray[i] / enter - h.lower[i]) / (h.upper[i] - h.lower[i]);
+        return std::min(patches - 1, std::max(0, static_cast<int>(t * patches)));
+      };
+      Patch& patch = grids[face][cell(p) * patches + cell(q)];
+      FaceEvidence& e = evidence.faces[front[face]];
       const float w = row[u];
       if (!(w > 0)) {
         ++e.missing;
+        ++patch.missing;
         continue;
       }
       const double noise = sensor.sigmaZ(1 / enter) * enter * enter;
       // a pixel of lateral error shifts an oblique face in depth
-      const double lateral = planes[face].slope;
+      const double lateral = planes[front[face]].slope;
       const double sigma = std::sqrt(noise * noise + lateral * lateral);
       const double r = (w - enter) / sigma;
       constexpr double gate = 3.5;
-      if (r > gate)
+      if (r > gate) {
         ++e.occluded;
-      else if (r < -gate)
+        ++patch.occluded;
+      }
+      else if (r < -gate) {
         ++e.contradiction;
+        ++patch.contradiction;
+      }
       else {
         ++e.support;
+        ++patch.support;
+        patch.sum += ray[axis] / w - bound;
         evidence.support.push_back(v * image.cols + u);
       }
     }
+  }
+  const double noise_at_center = sensor.sigmaZ(z);
+  for (int k = 0; k < fronts; ++k) {
+    const int axis = front[k] / 2;
+    const Eigen::Vector3d size = h.size();
+    const double shorter = std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+    // real cartons bulge: a few per cent of the side
+    const double tolerance = 0.03 * shorter + 0.5 * noise_at_center;
+    evidence.faces[front[k]].flat = flatShare(grids[k], noise_at_center, tolerance);
   }
 
   // Outline: just beyond every edge between a visible and a hidden face, the visible
@@ -168,6 +227,10 @@ verifyCuboid(const CuboidHypothesis& h,
   for (int k = 0; k < fronts; ++k) {
     const int f = front[k];
     const int axis = f / 2;
+    // A face seen at a grazing angle is a sliver; a degree of tilt hides or shows it.
+    constexpr double min_cosine = 0.2;
+    if (std::abs(h.axes.col(axis).dot(h.center().normalized())) < min_cosine)
+      continue;
     for (int m = 0; m < n_hidden; ++m) {
       const int g = hidden[m];
       const int across = g / 2;
@@ -177,12 +240,47 @@ verifyCuboid(const CuboidHypothesis& h,
       Eigen::Vector3d p;
       p[axis] = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
       const double side = g % 2 == 0 ? -1.0 : 1.0;
-      // far enough that the sensor's fringe is passed
-      const double beyond = 3.5 * pixel + sensor.sigmaZ(z);
-      p[across] = (g % 2 == 0 ? h.lower[across] : h.upper[across]) + side * beyond;
+      // Far enough that the sensor's fringe is passed, in the image too: an oblique face
+      // is foreshortened.
+      p[along] = 0.5 * (h.lower[along] + h.upper[along]);
+      p[across] = g % 2 == 0 ? h.lower[across] : h.upper[across];
+      const Eigen::Vector3d on_edge = h.axes * p;
+      const Eigen::Vector3d outside = on_edge + side * pixel * h.axes.col(across);
+      if (on_edge.z() < min_depth || outside.z() < min_depth)
+        continue;
+      const double shift =
+          (camera.project(outside) - camera.project(on_edge)).norm(); // [px]
+      constexpr double max_stretch = 4;
+      if (shift * max_stretch < 1)
+        continue; // seen edge on
+      const double beyond =
+          3.5 * pixel / std::min(1.0, shift) + sensor.sigmaZ(on_edge.z());
+      p[across] += side * beyond;
       const double length = h.upper[along] - h.lower[along];
+      // What the box stands on rises from its face like the floor from a wall: twice
+      // as far out it is clearly above the face's plane.
+      const auto risesFartherOut = [&](Eigen::Vector3d at, int axis_out, double sign) {
+        at[axis_out] += sign * 1.5 * beyond;
+        const Eigen::Vector3d x = h.axes * at;
+        if (x.z() < min_depth)
+          return false;
+        const Eigen::Vector2d q = camera.project(x);
+        const int u = static_cast<int>(std::lround(q.x()));
+        const int v = static_cast<int>(std::lround(q.y()));
+        if (u < 0 || v < 0 || u >= image.cols || v >= image.rows || !(image(v, u) > 0))
+          return false;
+        const Eigen::Vector3d ray = camera.ray(u, v);
+        const double toward = h.axes.col(axis).dot(ray) * (f % 2 == 0 ? -1.0 : 1.0);
+        const double height =
+            toward / image(v, u) - at[axis] * (f % 2 == 0 ? -1.0 : 1.0);
+        return height > 2 * (sensor.sigmaZ(x.z()) * std::abs(toward) + 0.5 * pixel);
+      };
+      EdgeEvidence edge;
+      edge.face = f;
+      edge.neighbour = g;
       const int samples =
           std::max(4, std::min(40, static_cast<int>(length / (2 * pixel))));
+      edge.samples = samples;
       for (int s = 0; s < samples; ++s) {
         p[along] = h.lower[along] + length * (s + 0.5) / samples;
         const Eigen::Vector3d x = h.axes * p;
@@ -195,43 +293,66 @@ verifyCuboid(const CuboidHypothesis& h,
           continue;
         const float w = image(v, u);
         if (!(w > 0)) {
-          ++evidence.edge_good;
+          ++edge.good;
           continue;
         }
-        const double expected = planes[f].at(u, v);
-        const double noise = sensor.sigmaZ(x.z()) * expected * expected;
-        const double r = (w - expected) / noise;
+        // Height of what was measured there over the face's plane. Just below the plane
+        // means that the surface goes on or bends away slowly, as a cylinder's does; a
+        // box ends in a step.
+        const double bound = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
+        const Eigen::Vector3d ray = camera.ray(u, v);
+        const double cosine = std::abs(h.axes.col(axis).dot(ray));
+        const double height =
+            (h.axes.col(axis).dot(ray) / w - bound) * (f % 2 == 0 ? -1.0 : 1.0);
+        const double noise = sensor.sigmaZ(x.z()) * cosine + 0.5 * pixel;
         constexpr double gate = 2.5;
-        if (r > gate)
+        if (height > gate * noise)
           continue; // covered or a surface that rises: says nothing
-        if (r < -gate)
-          ++evidence.edge_good;
+        if (height > -gate * noise - beyond && risesFartherOut(p, across, side))
+          continue; // it stands on something
+        if (height < -gate * noise - beyond)
+          ++edge.good;
         else
-          ++evidence.edge_bad;
+{
+          ++edge.bad;
+          const short label = labels(v, u);
+          if (label > 0) {
+            const double turn = faces[label - 1].normal.dot(h.axes.col(axis)) *
+                                (f % 2 == 0 ? -1.0 : 1.0);
+            edge.bent += turn > 0.3 && turn < 0.97 ? 1 : 0;
+          }
+        }
       }
+      evidence.edges.push_back(edge);
     }
   }
 
-  // The score: what was seen as it should be among what could be seen, face by face
-  // weighted by its size, times the share of the outline where the surface ends.
-  double good = 0, bad = 0;
+  // The score. Faces: the share of what is not covered that lies where it should,
+  // weighted by area. Edges: the same for the outline.
+  double area_sum = 0, flat_sum = 0;
   int observed = 0;
   for (int k = 0; k < fronts; ++k) {
     const FaceEvidence& e = evidence.faces[front[k]];
-    good += e.support;
-    bad += e.contradiction + 0.5 * e.missing;
-    const int open = e.support + e.contradiction + e.missing;
-    observed += e.support * stride * stride >= 30 && e.support > 0.4 * open ? 1 : 0;
-    // a face that is contradicted as a whole is no face
-    if (e.contradiction > e.support && e.contradiction > 0.1 * (good + bad))
-      bad += e.contradiction;
+    const double open = e.support + e.contradiction + e.missing;
+    area_sum += open;
+    flat_sum += open * e.flat;
+    observed += e.support * stride * stride >= 30 && e.flat > 0.5 ? 1 : 0;
   }
-  if (good <= 0)
+  if (area_sum <= 0)
     return;
-  const double faces = good / (good + bad);
-  const double edges =
-      (evidence.edge_good + 2.0) / (evidence.edge_good + evidence.edge_bad + 2.0);
-  evidence.score = faces * std::sqrt(edges);
+  double good = 1, bad = 0, worst = 1;
+  for (const EdgeEvidence& e : evidence.edges) {
+    good += e.good;
+    bad += e.bad;
+    if (e.good + e.bad > 0.25 * e.samples)
+      worst = std::min(worst, (e.good + 1.0) / (e.good + e.bad + 1.0));
+  }
+  evidence.flat = flat_sum / area_sum;
+  evidence.outline = good / (good + bad);
+  evidence.worst_edge = worst;
+  evidence.score = evidence.flat * evidence.flat * evidence.flat * evidence.outline;
+  for (const EndSource end : h.ends)
+    evidence.score *= end == EndSource::seen ? 1.0 : end == EndSource::support ? 0.95 : 0.6;
   if (observed < 2)
     evidence.score *= 0.5; // one face: the third dimension is a guess
 }

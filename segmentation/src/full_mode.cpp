@@ -36,11 +36,19 @@ toCuboid(const CuboidCandidate& candidate)
   c.axes = h.axes;
   c.size = h.size();
   c.model = h.model;
+  if (candidate.refined) {
+    c.center_sigma = candidate.covariance.center;
+    c.size_sigma = candidate.covariance.size;
+    c.rotation_sigma = candidate.covariance.rotation;
+  }
   c.score = candidate.evidence.score;
   for (int i = 0; i < 3; ++i) {
-    c.dimension_source[i] = h.seen[2 * i] && h.seen[2 * i + 1]
-                                ? DimensionSource::measured
-                                : DimensionSource::partial;
+    const EndSource a = h.ends[2 * i], b = h.ends[2 * i + 1];
+    c.dimension_source[i] = DimensionSource::measured;
+    if (a == EndSource::bound || b == EndSource::bound)
+      c.dimension_source[i] = DimensionSource::partial;
+    else if (a == EndSource::support || b == EndSource::support)
+      c.dimension_source[i] = DimensionSource::support;
     for (int side = 0; side < 2; ++side) {
       const FaceEvidence& e = candidate.evidence.faces[2 * i + side];
       // Cuboid lists the positive face first
@@ -51,6 +59,7 @@ toCuboid(const CuboidCandidate& candidate)
   }
   c.indices.assign(candidate.evidence.support.begin(),
                    candidate.evidence.support.end());
+  { const auto&e=candidate.evidence; c.segments={int(e.flat*1000),int(e.outline*1000),int(e.worst_edge*1000)}; for(auto&q:e.edges) {c.segments.push_back(q.samples);c.segments.push_back(q.good);c.segments.push_back(q.bad+1000*q.bent);} }
   canonicalize(c);
   return c;
 }
@@ -96,6 +105,7 @@ FullMode::segment(const FrameImages& images,
                        hypothesis_parameters,
                        w.hypotheses,
                        diagnostics);
+  extendToSupport(w.faces, hypothesis_parameters, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 
   constexpr int max_samples = 4000;
@@ -105,10 +115,36 @@ FullMode::segment(const FrameImages& images,
     c.hypothesis = w.hypotheses[i];
     verifyCuboid(c.hypothesis,
                  images.inverse_depth,
+                 w.labels,
+                 w.faces,
                  images.intrinsics,
                  parameters.sensor,
                  max_samples,
                  c.evidence);
+    c.refined = false;
+    constexpr double min_start = 0.2; // what the first look must give
+    if (c.evidence.score > min_start) {
+      CuboidHypothesis better = c.hypothesis;
+      c.refined = refineCuboid(better,
+                               c.evidence,
+                               images.inverse_depth,
+                               w.labels,
+                               w.borders,
+                               images.intrinsics,
+                               parameters.sensor,
+                               c.covariance);
+      if (c.refined) {
+        c.hypothesis = better;
+        verifyCuboid(c.hypothesis,
+                     images.inverse_depth,
+                     w.labels,
+                     w.faces,
+                     images.intrinsics,
+                     parameters.sensor,
+                     max_samples,
+                     c.evidence);
+      }
+    }
     if (c.evidence.score < parameters.min_score)
       diagnostics.rejected.add("score below the minimum");
   }

@@ -12,6 +12,13 @@
 
 namespace hoist {
 
+/** \brief How the end of a box along an axis is known. */
+enum class EndSource : unsigned char {
+  bound,  ///< something covers it; the box reaches at least that far
+  seen,   ///< outline, crease or plane
+  support ///< covered; taken from the surface it stands on or leans against
+};
+
 /** \brief A box that may be there. Camera frame, metres.
  *
  * The box is axes * [lower, upper]: its points have axes^T x between lower and upper.
@@ -19,8 +26,8 @@ namespace hoist {
 struct CuboidHypothesis {
   Eigen::Matrix3d axes; ///< right handed
   Eigen::Vector3d lower, upper;
-  /// Ends that were seen; lower 0, upper 0, lower 1, ... false: only a bound.
-  std::array<bool, 6> seen{};
+  /// How each end is known: lower 0, upper 0, lower 1, ...
+  std::array<EndSource, 6> ends{};
   std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
   CuboidModel model = CuboidModel::faces;
 
@@ -60,5 +67,15 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
                      const CuboidHypothesisParameters& parameters,
                      std::vector<CuboidHypothesis>& hypotheses,
                      Diagnostics& diagnostics);
+
+/** \brief Adds, for each hypothesis with covered ends, the boxes that reach on to the
+ *  surface behind the cover: a large face parallel to the end and beyond it.
+ *
+ * Nothing seen contradicts such a box; the end is marked EndSource::support.
+ */
+HOIST_SEGMENTATION_EXPORT void
+extendToSupport(const std::vector<PlanarFace>& faces,
+                const CuboidHypothesisParameters& parameters,
+                std::vector<CuboidHypothesis>& hypotheses);
 
 } // namespace hoist

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <hoist/segmentation/cuboid_refinement.h>
 #include <hoist/segmentation/cuboid_verification.h>
 
 #include <vector>
@@ -10,6 +11,8 @@ namespace hoist {
 struct CuboidCandidate {
   CuboidHypothesis hypothesis;
   CuboidEvidence evidence;
+  CuboidCovariance covariance;
+  bool refined = false;
 };
 
 /** \brief Chooses the set of candidates that explains the most of the frame without

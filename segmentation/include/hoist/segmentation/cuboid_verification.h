@@ -18,16 +18,29 @@ struct FaceEvidence {
   int occluded = 0;      ///< something nearer is in front
   int contradiction = 0; ///< the sensor saw through it
   int missing = 0;       ///< nothing measured
+  double flat = 0; ///< share of what is not covered where the mean depth is right
+};
+
+/** \brief What the frame says of an edge between a visible and a hidden face. */
+struct EdgeEvidence {
+  int face = 0;     ///< the visible one
+  int neighbour = 0; ///< the hidden one
+  int samples = 0; ///< along the edge
+  int good = 0;    ///< the surface ends in a step
+  int bad = 0;     ///< it goes on beyond the box or bends away slowly
+  int bent = 0;    ///< of the bad: a face that meets this one at neither 0 nor 90 degrees
 };
 
 /** \brief What the frame says of a cuboid. */
 struct CuboidEvidence {
   std::array<FaceEvidence, 6> faces; ///< lower 0, upper 0, lower 1, ...
   std::array<bool, 6> visible{};     ///< faces that look at the camera
-  int edge_good = 0;        ///< outline samples where the surface ends as it should
-  int edge_bad = 0;         ///< outline samples where a face goes on beyond the box
-  double score = 0;         ///< in [0, 1]
-  int stride = 1;           ///< one pixel in stride x stride was looked at
+  std::vector<EdgeEvidence> edges;   ///< the outline
+  double flat = 0;       ///< share of the uncovered area that lies on the faces
+  double outline = 0;    ///< share of the outline where the surface ends
+  double worst_edge = 0; ///< the same of the worst edge
+  double score = 0;      ///< in [0, 1]
+  int stride = 1;        ///< one pixel in stride x stride was looked at
   std::vector<int> support; ///< supporting pixels, indices into the frame
 
   int
@@ -44,11 +57,15 @@ struct CuboidEvidence {
  *  occluded or contradiction.
  *
  * \param hypothesis the box, in front of the camera
+ * \param labels number of the face + 1 at each pixel, 0 where none
+ * \param faces the faces that labels speaks of
  * \param max_samples the stride is chosen so that about this many pixels are looked at
  * \param evidence overwritten; its score is the share of the evidence in favour
  */
 HOIST_SEGMENTATION_EXPORT void verifyCuboid(const CuboidHypothesis& hypothesis,
                                             const cv::Mat1f& inverse_depth,
+                                            const cv::Mat1s& labels,
+                                            const std::vector<PlanarFace>& faces,
                                             const Intrinsics& camera,
                                             const SensorModel& sensor,
                                             int max_samples,

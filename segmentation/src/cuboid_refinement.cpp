@@ -1,0 +1,239 @@
+#include <hoist/segmentation/cuboid_refinement.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hoist {
+namespace {
+
+using Vector9 = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+// Neighbouring measurements share their errors: so many of them count as one.
+constexpr double face_correlation = 50;
+constexpr double border_correlation = 6;
+constexpr double lateral_noise = 0.8; // of an outline element [px]
+constexpr int max_face_pixels = 1500;
+
+struct FacePixel {
+  Eigen::Vector3d point; // [m]
+  int face;              // of the box
+  double sigma;          // along the normal [m]
+};
+
+struct OutlinePoint {
+  Eigen::Vector3d point; // [m]
+  int end;               // of the box, lower 0, upper 0, lower 1, ...
+};
+
+// Tukey's biweight of a residual in units of sigma, zero beyond c.
+double
+weight(double r, double c)
+{
+  const double t = r / c;
+  return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
+}
+
+double
+endOf(const CuboidHypothesis& h, int f)
+{
+  return f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
+}
+
+double&
+endOf(CuboidHypothesis& h, int f)
+{
+  return f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
+}
+
+// The box face that a point near the surface lies on, or -1.
+int
+faceOf(const CuboidHypothesis& h,
+       const CuboidEvidence& e,
+       const Eigen::Vector3d& local,
+       double gate)
+{
+  int best = -1;
+  double nearest = gate;
+  for (int f = 0; f < 6; ++f) {
+    if (!e.visible[f])
+      continue;
+    const double d = std::abs(local[f / 2] - endOf(h, f));
+    if (d < nearest) {
+      nearest = d;
+      best = f;
+    }
+  }
+  return best;
+}
+
+} // namespace
+
+bool
+refineCuboid(CuboidHypothesis& hypothesis,
+             const CuboidEvidence& evidence,
+             const cv::Mat1f& image,
+             const cv::Mat1s& labels,
+             const FaceBorders& borders,
+             const Intrinsics& camera,
+             const SensorModel& sensor,
+             CuboidCovariance& covariance)
+{
+  CuboidHypothesis h = hypothesis;
+  const Eigen::Vector3d origin = h.center();
+  const double z = origin.z();
+  const double pixel = z / std::min(camera.fx, camera.fy);
+  const double noise = sensor.sigmaZ(z);
+
+  // Face pixels: an even subset of the support. Which labels lie on which box face?
+  std::vector<FacePixel> pixels;
+  std::vector<std::array<int, 7>> votes; // label, then count per face
+  const std::size_t step =
+      std::max<std::size_t>(1, evidence.support.size() / max_face_pixels);
+  const double share = static_cast<double>(evidence.stride) * evidence.stride * step;
+  for (std::size_t i = 0; i < evidence.support.size(); i += step) {
+    const int index = evidence.support[i];
+    const int u = index % image.cols, v = index / image.cols;
+    const Eigen::Vector3d ray = camera.ray(u, v);
+    const Eigen::Vector3d p = ray / image(v, u);
+    const int f = faceOf(h, evidence, h.axes.transpose() * p, 5 * noise + 3 * pixel);
+    if (f < 0)
+      continue;
+    const double cosine = std::abs(h.axes.col(f / 2).dot(ray));
+    const double sigma = sensor.sigmaZ(p.z()) * std::max(cosine, 0.1);
+    pixels.push_back({p, f, sigma});
+    const int label = labels(v, u);
+    if (label == 0)
+      continue;
+    auto it = std::find_if(
+        votes.begin(), votes.end(), [&](const auto& x) { return x[0] == label; });
+    if (it == votes.end())
+      it = votes.insert(votes.end(), {label, 0, 0, 0, 0, 0, 0});
+    ++(*it)[1 + f];
+  }
+  if (pixels.size() < 12)
+    return false;
+
+  // Outline elements of those labels, each with the end it lies at.
+  std::vector<OutlinePoint> outline;
+  const double reach = 1.5 * pixel + 0.5 * noise;
+  for (const auto& vote : votes) {
+    const int f =
+        static_cast<int>(std::max_element(vote.begin() + 1, vote.end()) - vote.begin()) -
+        1;
+    if (vote[1 + f] < 5)
+      continue;
+    const int label = vote[0] - 1;
+    for (int i = borders.first[label]; i < borders.first[label + 1]; ++i) {
+      const BorderElement& e = borders.elements[i];
+      if (e.kind == BorderKind::occluded || e.kind == BorderKind::cut)
+        continue;
+      const Eigen::Vector3d local = h.axes.transpose() * e.point.cast<double>();
+      const Eigen::Vector3d outward = h.axes.transpose() * e.outward.cast<double>();
+      int end = -1;
+      double nearest = reach;
+      for (int g = 0; g < 6; ++g) {
+        // ends at visible faces are where two planes meet: the pixels know them better
+        if (g / 2 == f / 2 || evidence.visible[g])
+          continue;
+        if (outward[g / 2] * (g % 2 == 0 ? -1.0 : 1.0) < 0.3)
+          continue;
+        const double d = std::abs(local[g / 2] - endOf(h, g));
+        if (d < nearest) {
+          nearest = d;
+          end = g;
+        }
+      }
+      if (end >= 0)
+        outline.push_back({e.point.cast<double>(), end});
+    }
+  }
+
+  // Parameters: turn about the origin, then the six ends measured from the origin.
+  Vector9 ends = Vector9::Zero();
+  const auto fromOrigin = [&](int f) {
+    return endOf(h, f) - h.axes.col(f / 2).dot(origin);
+  };
+  for (int f = 0; f < 6; ++f)
+    ends[3 + f] = fromOrigin(f);
+  const Vector9 start = ends;
+  Eigen::Matrix3d axes = h.axes;
+  Matrix9 normal;
+  constexpr int iterations = 6;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    normal.setZero();
+    Vector9 gradient = Vector9::Zero();
+    const auto addResidual = [&](const Eigen::Vector3d& p, int f, double sigma, double n, double cut) {
+      const Eigen::Vector3d x = p - origin;
+      const Eigen::Vector3d a = axes.col(f / 2);
+      const double r = (a.dot(x) - ends[3 + f]) / sigma;
+      const double w = weight(r, cut) * n;
+      if (w == 0)
+        return;
+      // d(a . x) for a turn omega is omega . (a x x)
+      const Eigen::Vector3d turn = a.cross(x) / sigma;
+      const double step_end = -1 / sigma;
+      normal.topLeftCorner<3, 3>() += w * turn * turn.transpose();
+      normal.block<3, 1>(0, 3 + f) += w * turn * step_end;
+      normal.block<1, 3>(3 + f, 0) += w * turn.transpose() * step_end;
+      normal(3 + f, 3 + f) += w * step_end * step_end;
+      gradient.head<3>() += w * turn * r;
+      gradient[3 + f] += w * step_end * r;
+    };
+    for (const FacePixel& p : pixels)
+      addResidual(p.point, p.face, p.sigma, share / face_correlation, 4.7);
+    for (const OutlinePoint& p : outline)
+      addResidual(p.point, p.end, lateral_noise * pixel, 1 / border_correlation, 3.0);
+    // what nothing measures stays where the hypothesis put it
+    constexpr double prior = 1.0; // [m]
+    for (int f = 0; f < 6; ++f) {
+      normal(3 + f, 3 + f) += 1 / (prior * prior);
+      gradient[3 + f] += (ends[3 + f] - start[3 + f]) / (prior * prior);
+    }
+    for (int i = 0; i < 3; ++i)
+      normal(i, i) += 1; // 1 rad
+    const Vector9 delta = -normal.ldlt().solve(gradient);
+    if (!delta.allFinite() || delta.head<3>().norm() > 0.3)
+      return false;
+    const double angle = delta.head<3>().norm();
+    if (angle > 1e-12)
+      axes = Eigen::AngleAxisd(angle, delta.head<3>() / angle).toRotationMatrix() * axes;
+    ends.tail<6>() += delta.tail<6>();
+    if (delta.norm() < 1e-6)
+      break;
+  }
+  // clean up rounding
+  axes.col(0).normalize();
+  axes.col(1) = (axes.col(1) - axes.col(0) * axes.col(0).dot(axes.col(1))).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+
+  h.axes = axes;
+  for (int f = 0; f < 6; ++f)
+    endOf(h, f) = ends[3 + f] + axes.col(f / 2).dot(origin);
+  if ((h.size().array() <= 0).any() || (h.center() - origin).norm() > 0.5 * h.size().norm())
+    return false;
+
+  const Matrix9 c = normal.ldlt().solve(Matrix9::Identity());
+  Eigen::Matrix3d center = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const double ll = c(3 + 2 * i, 3 + 2 * i), uu = c(4 + 2 * i, 4 + 2 * i);
+    const double lu = c(3 + 2 * i, 4 + 2 * i);
+    covariance.size[i] = std::sqrt(std::max(0.0, ll + uu - 2 * lu));
+    for (int j = 0; j < 3; ++j) {
+      const double cij = 0.25 * (c(3 + 2 * i, 3 + 2 * j) + c(3 + 2 * i, 4 + 2 * j) +
+                                 c(4 + 2 * i, 3 + 2 * j) + c(4 + 2 * i, 4 + 2 * j));
+      center += cij * axes.col(i) * axes.col(j).transpose();
+    }
+  }
+  covariance.center = center.diagonal().cwiseMax(0.0).cwiseSqrt();
+  covariance.rotation = std::sqrt(c.topLeftCorner<3, 3>().trace());
+  hypothesis = h;
+  return true;
+}
+
+} // namespace hoist
