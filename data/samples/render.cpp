@@ -56,14 +56,17 @@ pixelColor(const Scene& scene, int u, int v)
 {
   const int n = std::max(1, scene.supersampling);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  bool seen = false; // what nobody sees gets no noise: the files stay small
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const Eigen::Vector3d direction =
           scene.camera.ray(u + (i + 0.5) / n - 0.5, v + (j + 0.5) / n - 0.5);
-      sum += shade(scene, direction, cast(scene, Eigen::Vector3d::Zero(), direction));
+      const Hit hit = cast(scene, Eigen::Vector3d::Zero(), direction);
+      seen |= hit.object >= 0;
+      sum += shade(scene, direction, hit);
     }
   sum /= n * n;
-  if (scene.noise.enabled)
+  if (scene.noise.enabled && seen)
     for (int k = 0; k < 3; ++k)
       sum[k] += scene.noise.color_sigma * hashNormal(scene.seed ^ 0xc0, u, v, k);
   Rgb rgb;

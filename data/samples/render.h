@@ -31,6 +31,14 @@ struct BoxTruth {
                                    static_cast<double>(alone_pixels);
   }
 
+  /** \brief Neither hit nor miss in an evaluation: less than 40 % of it is seen, the
+   *  rule of the mOSD truth. */
+  bool
+  difficult() const
+  {
+    return visibleFraction() < 0.4;
+  }
+
   /** \brief Faces with at least \a min_pixels pixels. */
   int facesVisible(std::size_t min_pixels = 10) const;
 

@@ -3,6 +3,8 @@
 #include "generate.h"
 #include "render.h"
 
+#include <hoist/data/pts_io.h>
+
 #include <pcl/io/pcd_io.h>
 
 #include <fstream>
@@ -24,6 +26,13 @@ writeSamples(const std::filesystem::path& folder)
     if (pcl::PCDWriter().writeBinaryCompressed(pcd.string(), frame.cloud) < 0)
       throw std::runtime_error("cannot write " + pcd.string());
     written.push_back(pcd);
+
+    if (scene.width <= 320) {
+      const fs::path pts = folder / "scenes" / (scene.name + ".pts");
+      if (savePTSFile(pts.string(), frame.cloud) < 0)
+        throw std::runtime_error("cannot write " + pts.string());
+      written.push_back(pts);
+    }
 
     const fs::path truth = folder / "truth" / (scene.name + ".json");
     std::ofstream out(truth, std::ios::binary);

@@ -48,7 +48,7 @@ truthJson(const Scene& scene, const FrameTruth& truth)
       rows.push_back(vectorJson(box.axes.row(i).transpose()));
     cuboid["rotation"] = rows;
     cuboid["faces_visible"] = entry.facesVisible();
-    cuboid["difficult"] = false;
+    cuboid["difficult"] = entry.difficult();
     cuboid["visible_fraction"] = entry.visibleFraction();
     cuboid["visible_pixels"] = entry.visible_pixels;
     cuboid["base_rgb"] = box.color;

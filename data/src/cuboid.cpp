@@ -74,38 +74,77 @@ Cuboid::edges()
   return table;
 }
 
-void
-canonicalize(Cuboid& cuboid, const Eigen::Vector3d& up)
+namespace {
+
+// Directions within this of each other [cosine] count as tied, so that noise does not
+// decide; the next criterion does.
+constexpr double tie = 0.1;
+
+// Which of two axes of alike length comes first: the one further from up, else the one
+// less along the line of sight, else the one that runs from near left to far right.
+bool
+comesFirst(const Eigen::Vector3d& a,
+           const Eigen::Vector3d& b,
+           const Eigen::Vector3d& up)
 {
-  // Sizes that cannot be told apart are ordered by their angle to up instead.
+  const double level = std::abs(b.dot(up)) - std::abs(a.dot(up));
+  if (std::abs(level) > tie)
+    return level > 0;
+  const double sight = std::abs(b.z()) - std::abs(a.z());
+  if (std::abs(sight) > tie)
+    return sight > 0;
+  return a.x() * a.z() > b.x() * b.z();
+}
+
+// The axes from length to height. Sorted by size first, so that the result does not
+// depend on the order in which they came; "alike" is not transitive.
+std::array<int, 3>
+orderAxes(const Cuboid& cuboid, const Eigen::Vector3d& up)
+{
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return cuboid.size[a] > cuboid.size[b];
+  });
   const auto alike = [&](int a, int b) {
     const double sigma = std::hypot(cuboid.size_sigma[a], cuboid.size_sigma[b]);
     return std::abs(cuboid.size[a] - cuboid.size[b]) <
            (std::isfinite(sigma) ? sigma : 1e-9);
   };
+  const bool first_two = alike(order[0], order[1]);
+  const bool last_two = alike(order[1], order[2]);
   const auto level = [&](int a) { return std::abs(cuboid.axes.col(a).dot(up)); };
-  std::array<int, 3> order = {0, 1, 2};
-  // three elements: bubble sort, because "alike" is not transitive
-  for (const int i : {0, 1, 0}) {
-    const int a = order[i], b = order[i + 1];
-    if (alike(a, b) ? level(a) > level(b) : cuboid.size[a] < cuboid.size[b])
-      std::swap(order[i], order[i + 1]);
-  }
+  if (first_two && last_two) // the most upright is the height
+    std::iter_swap(order.begin() + 2,
+                   std::max_element(order.begin(), order.end(), [&](int a, int b) {
+                     return level(a) < level(b);
+                   }));
+  const int i = first_two ? 0 : 1;
+  if ((first_two || last_two) &&
+      comesFirst(cuboid.axes.col(order[i + 1]), cuboid.axes.col(order[i]), up))
+    std::swap(order[i], order[i + 1]);
+  return order;
+}
 
-  const auto sign = [&](const Eigen::Vector3d& axis) {
-    // level axes: the camera's -z decides, then +x
-    constexpr double tie = 0.1;
-    double d = axis.dot(up);
-    if (std::abs(d) < tie)
-      d = -axis.z();
-    if (std::abs(d) < tie)
-      d = axis.x();
-    return d < 0 ? -1.0 : 1.0;
-  };
+// Which end of an axis is its positive one.
+double
+signOf(const Eigen::Vector3d& axis, const Eigen::Vector3d& up)
+{
+  for (const double d : {axis.dot(up), -axis.z(), axis.x(), -axis.y()})
+    if (std::abs(d) >= tie)
+      return d < 0 ? -1.0 : 1.0;
+  return 1.0; // not a unit vector
+}
+
+} // namespace
+
+void
+canonicalize(Cuboid& cuboid, const Eigen::Vector3d& up)
+{
+  const std::array<int, 3> order = orderAxes(cuboid, up);
   const Cuboid old = cuboid;
   std::array<double, 3> signs{};
-  signs[0] = sign(old.axes.col(order[0]));
-  signs[2] = sign(old.axes.col(order[2]));
+  signs[0] = signOf(old.axes.col(order[0]), up);
+  signs[2] = signOf(old.axes.col(order[2]), up);
   const Eigen::Vector3d first = signs[0] * old.axes.col(order[0]);
   const Eigen::Vector3d last = signs[2] * old.axes.col(order[2]);
   signs[1] = last.cross(first).dot(old.axes.col(order[1])) < 0 ? -1.0 : 1.0;

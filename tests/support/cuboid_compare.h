@@ -169,11 +169,13 @@ intersectionVolume(const Cuboid& a, const Cuboid& b)
     for (const auto& face : faces) {
       detail::Polygon polygon = face.polygon;
       for (const auto& plane : planes) {
-        // a face that both have in common counts once
-        if (!keep_coplanar && face.normal.dot(plane.normal) > 1 - 1e-12 &&
-            std::abs(face.offset - plane.offset) < eps)
+        // a face that both have in common counts once, wherever rounding puts it
+        const bool common = face.normal.dot(plane.normal) > 1 - 1e-12 &&
+                            std::abs(face.offset - plane.offset) < eps;
+        if (!common)
+          polygon = detail::clip(polygon, plane);
+        else if (!keep_coplanar)
           polygon.clear();
-        polygon = detail::clip(polygon, plane);
       }
       volume += face.offset * detail::area(polygon) / 3;
     }
