@@ -1,5 +1,6 @@
 #include <hoist/segmentation/endpoint_clustering.h>
 
+#include <pcl/exceptions.h>
 #include <pcl/point_cloud.h>
 #include <pcl/search/kdtree.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
 namespace hoist {
 namespace {
@@ -31,8 +31,8 @@ public:
   void
   link(int i, int k)
   {
-    const auto [low, high] = std::minmax(root(i), root(k));
-    parent_[high] = low;
+    const int a = root(i), b = root(k);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
 private:
@@ -51,8 +51,9 @@ void
 EndpointClustering::setDistanceThreshold(double distance)
 {
   if (!(distance >= 0) || !std::isfinite(distance))
-    throw std::invalid_argument("hoist::EndpointClustering: the distance threshold "
-                                "must be finite and >= 0 metres");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::EndpointClustering: the distance threshold "
+                        "must be finite and >= 0 metres");
   distance_ = distance;
 }
 
@@ -60,7 +61,8 @@ void
 EndpointClustering::setSearchMethod(const SearchPtr& search)
 {
   if (!search)
-    throw std::invalid_argument("hoist::EndpointClustering: null search method");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::EndpointClustering: null search method");
   search_ = search;
 }
 

@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include <pcl/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace hoist {
 namespace {
@@ -141,8 +142,8 @@ void
 VertexModels::setTolerance(double tolerance)
 {
   if (!(tolerance >= 0) || !std::isfinite(tolerance))
-    throw std::invalid_argument(
-        "hoist::VertexModels: the tolerance must be finite and >= 0");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::VertexModels: the tolerance must be finite and >= 0");
   tolerance_ = tolerance;
 }
 
@@ -150,7 +151,8 @@ void
 VertexModels::setMaxDegree(int degree)
 {
   if (degree < 3)
-    throw std::invalid_argument("hoist::VertexModels: the largest degree must be >= 3");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::VertexModels: the largest degree must be >= 3");
   max_degree_ = degree;
 }
 

@@ -73,7 +73,7 @@ public:
   }
 
   /** \brief The numbers of the paper mode; units and ranges are told there.
-   *  \throw std::invalid_argument if one is out of range */
+   *  \throw pcl::BadArgumentException if one is out of range */
   void setPaperParameters(const PaperModeParameters& parameters);
 
   const PaperModeParameters&

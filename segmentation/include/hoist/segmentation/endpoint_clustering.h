@@ -33,7 +33,7 @@ public:
   EndpointClustering();
 
   /** \brief The distance D [m], finite and >= 0; default 0.03, the paper's.
-   *  \throw std::invalid_argument outside that range */
+   *  \throw pcl::BadArgumentException outside that range */
   void setDistanceThreshold(double distance);
 
   double

@@ -16,7 +16,8 @@ namespace hoist {
  * through the pixel index. Two lifts:
  *  - LineLift::robust (default): pieces of one edge are joined, the segment is refined
  *    to its pixels and a line is fitted to all the depth along it (liftRobust);
- *  - LineLift::endpoints: the paper's, the points of the two end pixels, nothing joined.
+ *  - LineLift::endpoints: the paper's, the points of the two end pixels, nothing
+ * joined.
  *
  * Neighbours come from the whole cloud, not from the indices alone.
  */
@@ -70,7 +71,7 @@ public:
   }
 
   /** \brief The transform's numbers, in pixels and radians.
-   *  \throw std::invalid_argument if one is out of its range */
+   *  \throw pcl::BadArgumentException if one is out of its range */
   void setHough(const HoughParameters& parameters);
 
   const HoughParameters&
@@ -81,7 +82,7 @@ public:
 
   /** \brief LineLift::endpoints: how far from an end pixel without a point one is
    *  looked for [px]; default 0, the paper's.
-   *  \throw std::invalid_argument below 0 */
+   *  \throw pcl::BadArgumentException below 0 */
   void setEndSearchRadius(int radius);
 
   int
@@ -92,7 +93,7 @@ public:
 
   /** \brief LineLift::robust: width of the strip of surface on each side of a segment
    *  that the line is fitted to [px]; default 4, >= 2.
-   *  \throw std::invalid_argument below 2 */
+   *  \throw pcl::BadArgumentException below 2 */
   void setStripWidth(int width);
 
   int
@@ -102,7 +103,7 @@ public:
   }
 
   /** \brief Shortest segment that is reported [m]; default 0, finite and >= 0.
-   *  \throw std::invalid_argument outside that range */
+   *  \throw pcl::BadArgumentException outside that range */
   void setMinLength(double length);
 
   double

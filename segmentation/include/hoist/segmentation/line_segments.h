@@ -30,10 +30,10 @@ struct PixelSegment {
  * The paper names none of these numbers. */
 struct HoughParameters {
   double rho = 1.0;                    ///< distance step of the accumulator [px], > 0
-  double theta = 0.017453292519943295; ///< angle step of the accumulator [rad], > 0
+  double theta = 0.004363323129985824; ///< angle step, 0.25 degrees [rad], > 0
   int threshold = 20;                  ///< votes a line needs, >= 1
   double min_length = 20.0;            ///< shortest segment [px], >= 0
-  double max_gap = 5.0; ///< longest hole within one segment [px], >= 0
+  double max_gap = 10.0;               ///< longest hole within one segment [px], >= 0
 
   /** \brief Every number in its range. */
   bool

@@ -45,7 +45,7 @@ public:
 
   /** \brief Largest |Delta i . Delta j| of equation 3, finite and >= 0; default 0.05.
    *  A cosine, or square metres when not normalized.
-   *  \throw std::invalid_argument outside that range */
+   *  \throw pcl::BadArgumentException outside that range */
   void setTolerance(double tolerance);
 
   double
@@ -69,7 +69,7 @@ public:
 
   /** \brief Vertices with more segments are not searched, since the triples grow with
    *  the cube; they are counted as "vertex of too many segments". >= 3, default 64.
-   *  \throw std::invalid_argument below 3 */
+   *  \throw pcl::BadArgumentException below 3 */
   void setMaxDegree(int degree);
 
   int

@@ -3,9 +3,8 @@
 #include <hoist/segmentation/cuboid_segmentation.h>
 #include <hoist/segmentation/impl/frame_input.hpp>
 
+#include <pcl/exceptions.h>
 #include <pcl/impl/pcl_base.hpp>
-
-#include <stdexcept>
 
 namespace hoist {
 
@@ -14,8 +13,9 @@ void
 CuboidSegmentation<PointT>::setPaperParameters(const PaperModeParameters& parameters)
 {
   if (!parameters.valid())
-    throw std::invalid_argument("hoist::CuboidSegmentation: a parameter of the paper "
-                                "mode is out of range");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::CuboidSegmentation: a parameter of the paper "
+                        "mode is out of range");
   paper_parameters_ = parameters;
 }
 

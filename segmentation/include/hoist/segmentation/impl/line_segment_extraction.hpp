@@ -3,10 +3,10 @@
 #include <hoist/segmentation/impl/frame_input.hpp>
 #include <hoist/segmentation/line_segment_extraction.h>
 
+#include <pcl/exceptions.h>
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cmath>
-#include <stdexcept>
 
 namespace hoist {
 
@@ -15,7 +15,8 @@ void
 LineSegmentExtraction<PointT>::setHough(const HoughParameters& parameters)
 {
   if (!parameters.valid())
-    throw std::invalid_argument(
+    PCL_THROW_EXCEPTION(
+        pcl::BadArgumentException,
         "hoist::LineSegmentExtraction: a Hough parameter is out of range");
   parameters_.hough = parameters;
 }
@@ -25,7 +26,8 @@ void
 LineSegmentExtraction<PointT>::setEndSearchRadius(int radius)
 {
   if (radius < 0)
-    throw std::invalid_argument(
+    PCL_THROW_EXCEPTION(
+        pcl::BadArgumentException,
         "hoist::LineSegmentExtraction: the search radius must be >= 0 pixels");
   parameters_.end_search_radius = radius;
 }
@@ -35,7 +37,8 @@ void
 LineSegmentExtraction<PointT>::setStripWidth(int width)
 {
   if (width < 2)
-    throw std::invalid_argument(
+    PCL_THROW_EXCEPTION(
+        pcl::BadArgumentException,
         "hoist::LineSegmentExtraction: the strip must be >= 2 pixels wide");
   parameters_.strip_width = width;
 }
@@ -45,8 +48,9 @@ void
 LineSegmentExtraction<PointT>::setMinLength(double length)
 {
   if (!(length >= 0) || !std::isfinite(length))
-    throw std::invalid_argument("hoist::LineSegmentExtraction: the smallest length must "
-                                "be finite and >= 0 metres");
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::LineSegmentExtraction: the smallest length must "
+                        "be finite and >= 0 metres");
   parameters_.min_length = length;
 }
 
