@@ -141,6 +141,37 @@ TEST_P(Canonical, NoiseDoesNotFlipTheAxes)
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Canonical, testing::Range(1u, 41u));
 
+TEST(Canonical, TiesDoNotDependOnNaming)
+{
+  // Axis-aligned and half-turned boxes with equal sides, a chain of sides in which each
+  // is like the next but the first not like the last, and an up along the camera's x.
+  const Eigen::Matrix3d half_turned =
+      Eigen::AngleAxisd(EIGEN_PI / 4, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Eigen::Matrix3d tilted =
+      Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX()) * half_turned;
+  for (const Eigen::Matrix3d& axes :
+       {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), half_turned, tilted})
+    for (const Eigen::Vector3d& size : {Eigen::Vector3d(0.3, 0.3, 0.3),
+                                        Eigen::Vector3d(0.3, 0.2, 0.3),
+                                        Eigen::Vector3d(0.30, 0.31, 0.32)})
+      for (const Eigen::Vector3d& up :
+           {Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0)}) {
+        Cuboid box;
+        box.axes = axes;
+        box.size = size;
+        box.size_sigma = Eigen::Vector3d::Constant(0.01);
+        Cuboid reference = box;
+        canonicalize(reference, up);
+        for (const Eigen::Matrix3d& m : cubeRotations()) {
+          Cuboid c = renamed(box, m);
+          canonicalize(c, up);
+          EXPECT_LT((c.axes - reference.axes).norm(), 1e-9)
+              << axes << "\nsize " << size.transpose() << " up " << up.transpose();
+          EXPECT_LT((c.size - reference.size).norm(), 1e-12);
+        }
+      }
+}
+
 TEST(Canonical, UpDecidesWhichEndIsTheTop)
 {
   Cuboid c;

@@ -85,9 +85,12 @@ struct Cuboid {
  *
  * Sorts the sizes descending and carries axes, sigmas, faces and sources along. Signs:
  * the last axis (height) and the first (length) are turned to point into the half space
- * of \a up, or of the camera's -z where they are level with it; the middle axis follows
- * from the right hand rule. Sizes that differ by less than their joint sigma keep the
- * order given by their angle to \a up, so that noise does not swap them.
+ * of \a up, or of the camera's -z where they are level with it (within 0.1 of the
+ * sine), or of +x where that is level too; the middle axis follows from the right hand
+ * rule. Sizes that differ by less than their joint sigma are not ordered by size, so
+ * that noise does not swap them: the one further from \a up comes first, where that is
+ * tied the one less along the line of sight, then the one that runs from near left to
+ * far right. Then size(i) may exceed size(i - 1) by that sigma.
  *
  * \param up a unit vector in the camera frame; the camera's -y unless gravity is known
  */
