@@ -107,7 +107,8 @@ coplanarPartners(const std::vector<PlanarFace>& faces,
     const PlanarFace& g = faces[k];
     if (k == i || k == j)
       continue;
-    const double tilt = 0.1 + std::min(0.2, 2 * std::hypot(f.normal_sigma, g.normal_sigma));
+    const double tilt =
+        0.1 + std::min(0.2, 2 * std::hypot(f.normal_sigma, g.normal_sigma));
     if (f.normal.dot(g.normal) < std::cos(tilt))
       continue;
     if ((f.centroid - g.centroid).norm() > max_side)
@@ -148,92 +149,94 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
   const auto addHypotheses = [&](const std::array<int, 2>& group_i,
                                  const std::array<int, 2>& group_j,
                                  CuboidHypothesis h) {
-      const PlanarFace &fi = faces[group_i[0]], &fj = faces[group_j[0]];
-      const Eigen::Vector3d a = h.axes.col(0), b = h.axes.col(1), c = h.axes.col(2);
-      const double z = 0.5 * (fi.centroid.z() + fj.centroid.z());
-      const double pixel = z / std::min(camera.fx, camera.fy);
-      const double sigma = parameters.sensor.sigmaZ(z);
-      const double window = 2 * pixel + sigma;
+    const PlanarFace &fi = faces[group_i[0]], &fj = faces[group_j[0]];
+    const Eigen::Vector3d a = h.axes.col(0), b = h.axes.col(1), c = h.axes.col(2);
+    const double z = 0.5 * (fi.centroid.z() + fj.centroid.z());
+    const double pixel = z / std::min(camera.fx, camera.fy);
+    const double sigma = parameters.sensor.sigmaZ(z);
+    const double window = 2 * pixel + sigma;
 
-      // They must meet: each reaches the other's plane.
-      const double gate = 4 * pixel + 3 * sigma;
-      const End i_b = ends.find(group_i, b, window), j_a = ends.find(group_j, a, window);
-      const double gap_i = h.upper[1] - i_b.value, gap_j = h.upper[0] - j_a.value;
-      if ((i_b.seen && std::abs(gap_i) > gate) ||
-          (j_a.seen && std::abs(gap_j) > gate) || gap_i < -2 * gate ||
-          gap_j < -2 * gate || gap_i > 0.5 || gap_j > 0.5) {
-        diagnostics.rejected.add("faces do not meet");
-        return;
-      }
-      const End i_back = ends.find(group_i, -b, window), j_back = ends.find(group_j, -a, window);
-      h.lower[1] = -i_back.value;
-      h.lower[0] = -j_back.value;
-      const End i_up = ends.find(group_i, c, window), j_up = ends.find(group_j, c, window);
-      const End i_down = ends.find(group_i, -c, window), j_down = ends.find(group_j, -c, window);
-      // they share a part of the edge
-      const double overlap =
-          std::min(i_up.value, j_up.value) - std::max(-i_down.value, -j_down.value);
-      const double shorter =
-          std::min(i_up.value + i_down.value, j_up.value + j_down.value);
-      if (overlap < 0.25 * shorter || shorter <= 0) {
-        diagnostics.rejected.add("faces do not meet");
-        return;
-      }
-      const auto source = [](bool seen) {
-        return seen ? EndSource::seen : EndSource::bound;
-      };
-      h.ends = {source(j_back.seen),
-                EndSource::seen,
-                source(i_back.seen),
-                EndSource::seen,
-                EndSource::bound,
-                EndSource::bound};
+    // They must meet: each reaches the other's plane.
+    const double gate = 4 * pixel + 3 * sigma;
+    const End i_b = ends.find(group_i, b, window), j_a = ends.find(group_j, a, window);
+    const double gap_i = h.upper[1] - i_b.value, gap_j = h.upper[0] - j_a.value;
+    if ((i_b.seen && std::abs(gap_i) > gate) || (j_a.seen && std::abs(gap_j) > gate) ||
+        gap_i < -2 * gate || gap_j < -2 * gate || gap_i > 0.5 || gap_j > 0.5) {
+      diagnostics.rejected.add("faces do not meet");
+      return;
+    }
+    const End i_back = ends.find(group_i, -b, window),
+              j_back = ends.find(group_j, -a, window);
+    h.lower[1] = -i_back.value;
+    h.lower[0] = -j_back.value;
+    const End i_up = ends.find(group_i, c, window),
+              j_up = ends.find(group_j, c, window);
+    const End i_down = ends.find(group_i, -c, window),
+              j_down = ends.find(group_j, -c, window);
+    // they share a part of the edge
+    const double overlap =
+        std::min(i_up.value, j_up.value) - std::max(-i_down.value, -j_down.value);
+    const double shorter =
+        std::min(i_up.value + i_down.value, j_up.value + j_down.value);
+    if (overlap < 0.25 * shorter || shorter <= 0) {
+      diagnostics.rejected.add("faces do not meet");
+      return;
+    }
+    const auto source = [](bool seen) {
+      return seen ? EndSource::seen : EndSource::bound;
+    };
+    h.ends = {source(j_back.seen),
+              EndSource::seen,
+              source(i_back.seen),
+              EndSource::seen,
+              EndSource::bound,
+              EndSource::bound};
 
-      // Ends along the shared edge: both faces have their say.
-      struct Choice {
-        double value;
-        bool seen;
-      };
-      const auto choices = [&](const End& p, const End& q, Choice out[2]) {
-        if (p.seen && q.seen) {
-          if (std::abs(p.value - q.value) < window) {
-            out[0] = {(p.value * p.votes + q.value * q.votes) / (p.votes + q.votes),
-                      true};
-            return 1;
-          }
-          out[0] = {std::max(p.value, q.value), true};
-          out[1] = {std::min(p.value, q.value), true};
-          return 2;
-        }
-        if (!p.seen && !q.seen) {
-          out[0] = {std::max(p.value, q.value), false};
+    // Ends along the shared edge: both faces have their say.
+    struct Choice {
+      double value;
+      bool seen;
+    };
+    const auto choices = [&](const End& p, const End& q, Choice out[2]) {
+      if (p.seen && q.seen) {
+        if (std::abs(p.value - q.value) < window) {
+          out[0] = {(p.value * p.votes + q.value * q.votes) / (p.votes + q.votes),
+                    true};
           return 1;
         }
-        const End& s = p.seen ? p : q;
-        const End& hidden = p.seen ? q : p;
-        out[0] = {s.value, true};
-        if (hidden.value > s.value + window) {
-          out[1] = {hidden.value, false};
-          return 2;
-        }
+        out[0] = {std::max(p.value, q.value), true};
+        out[1] = {std::min(p.value, q.value), true};
+        return 2;
+      }
+      if (!p.seen && !q.seen) {
+        out[0] = {std::max(p.value, q.value), false};
         return 1;
-      };
-      Choice up[2], down[2];
-      const int ups = choices(i_up, j_up, up), downs = choices(i_down, j_down, down);
-      for (int x = 0; x < ups; ++x)
-        for (int y = 0; y < downs; ++y) {
-          h.upper[2] = up[x].value;
-          h.lower[2] = -down[y].value;
-          h.ends[5] = source(up[x].seen);
-          h.ends[4] = source(down[y].seen);
-          const Eigen::Vector3d size = h.size();
-          if (size.minCoeff() < parameters.min_side ||
-              size.maxCoeff() > parameters.max_side) {
-            diagnostics.rejected.add("side length outside the limits");
-            continue;
-          }
-          hypotheses.push_back(h);
+      }
+      const End& s = p.seen ? p : q;
+      const End& hidden = p.seen ? q : p;
+      out[0] = {s.value, true};
+      if (hidden.value > s.value + window) {
+        out[1] = {hidden.value, false};
+        return 2;
+      }
+      return 1;
+    };
+    Choice up[2], down[2];
+    const int ups = choices(i_up, j_up, up), downs = choices(i_down, j_down, down);
+    for (int x = 0; x < ups; ++x)
+      for (int y = 0; y < downs; ++y) {
+        h.upper[2] = up[x].value;
+        h.lower[2] = -down[y].value;
+        h.ends[5] = source(up[x].seen);
+        h.ends[4] = source(down[y].seen);
+        const Eigen::Vector3d size = h.size();
+        if (size.minCoeff() < parameters.min_side ||
+            size.maxCoeff() > parameters.max_side) {
+          diagnostics.rejected.add("side length outside the limits");
+          continue;
         }
+        hypotheses.push_back(h);
+      }
   };
   const auto n = static_cast<int>(faces.size());
   for (int i = 0; i < n; ++i)
@@ -269,8 +272,10 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
 
       partners[0].assign(1, -1);
       partners[1].assign(1, -1);
-      coplanarPartners(faces, i, j, parameters.sensor, parameters.max_side, partners[0]);
-      coplanarPartners(faces, j, i, parameters.sensor, parameters.max_side, partners[1]);
+      coplanarPartners(
+          faces, i, j, parameters.sensor, parameters.max_side, partners[0]);
+      coplanarPartners(
+          faces, j, i, parameters.sensor, parameters.max_side, partners[1]);
       const CuboidHypothesis base = h;
       for (const int pi : partners[0])
         for (const int pj : partners[1]) {

@@ -123,9 +123,9 @@ refineCuboid(CuboidHypothesis& hypothesis,
   std::vector<OutlinePoint> outline;
   const double reach = 1.5 * pixel + 0.5 * noise;
   for (const auto& vote : votes) {
-    const int f =
-        static_cast<int>(std::max_element(vote.begin() + 1, vote.end()) - vote.begin()) -
-        1;
+    const int f = static_cast<int>(std::max_element(vote.begin() + 1, vote.end()) -
+                                   vote.begin()) -
+                  1;
     if (vote[1 + f] < 5)
       continue;
     const int label = vote[0] - 1;
@@ -168,30 +168,32 @@ refineCuboid(CuboidHypothesis& hypothesis,
   for (int iteration = 0; iteration < iterations; ++iteration) {
     normal.setZero();
     Vector9 gradient = Vector9::Zero();
-    const auto addResidual = [&](const Eigen::Vector3d& p, int f, double sigma, double n, double cut) {
-      const Eigen::Vector3d x = p - origin;
-      const Eigen::Vector3d a = axes.col(f / 2);
-      const double r = (a.dot(x) - ends[3 + f]) / sigma;
-      const double w = weight(r, cut) * n;
-      if (w == 0)
-        return;
-      // d(a . x) for a turn omega is omega . (a x x)
-      const Eigen::Vector3d turn = a.cross(x) / sigma;
-      const double step_end = -1 / sigma;
-      normal.topLeftCorner<3, 3>() += w * turn * turn.transpose();
-      normal.block<3, 1>(0, 3 + f) += w * turn * step_end;
-      normal.block<1, 3>(3 + f, 0) += w * turn.transpose() * step_end;
-      normal(3 + f, 3 + f) += w * step_end * step_end;
-      gradient.head<3>() += w * turn * r;
-      gradient[3 + f] += w * step_end * r;
-    };
+    const auto addResidual =
+        [&](const Eigen::Vector3d& p, int f, double sigma, double n, double cut) {
+          const Eigen::Vector3d x = p - origin;
+          const Eigen::Vector3d a = axes.col(f / 2);
+          const double r = (a.dot(x) - ends[3 + f]) / sigma;
+          const double w = weight(r, cut) * n;
+          if (w == 0)
+            return;
+          // d(a . x) for a turn omega is omega . (a x x)
+          const Eigen::Vector3d turn = a.cross(x) / sigma;
+          const double step_end = -1 / sigma;
+          normal.topLeftCorner<3, 3>() += w * turn * turn.transpose();
+          normal.block<3, 1>(0, 3 + f) += w * turn * step_end;
+          normal.block<1, 3>(3 + f, 0) += w * turn.transpose() * step_end;
+          normal(3 + f, 3 + f) += w * step_end * step_end;
+          gradient.head<3>() += w * turn * r;
+          gradient[3 + f] += w * step_end * r;
+        };
     for (const FacePixel& p : pixels)
       addResidual(p.point, p.face, p.sigma, share / face_correlation, 4.7);
     for (const OutlinePoint& p : outline)
       addResidual(p.point, p.end, lateral_noise * pixel, 1 / border_correlation, 3.0);
     // what nothing measures stays where the hypothesis put it
-    constexpr double prior = 1.0; // [m]
     for (int f = 0; f < 6; ++f) {
+      // an end on a support is as good as the support's plane
+      const double prior = h.ends[f] == EndSource::support ? noise : 1.0; // [m]
       normal(3 + f, 3 + f) += 1 / (prior * prior);
       gradient[3 + f] += (ends[3 + f] - start[3 + f]) / (prior * prior);
     }
@@ -202,7 +204,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
       return false;
     const double angle = delta.head<3>().norm();
     if (angle > 1e-12)
-      axes = Eigen::AngleAxisd(angle, delta.head<3>() / angle).toRotationMatrix() * axes;
+      axes =
+          Eigen::AngleAxisd(angle, delta.head<3>() / angle).toRotationMatrix() * axes;
     ends.tail<6>() += delta.tail<6>();
     if (delta.norm() < 1e-6)
       break;
@@ -215,7 +218,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
   h.axes = axes;
   for (int f = 0; f < 6; ++f)
     endOf(h, f) = ends[3 + f] + axes.col(f / 2).dot(origin);
-  if ((h.size().array() <= 0).any() || (h.center() - origin).norm() > 0.5 * h.size().norm())
+  if ((h.size().array() <= 0).any() ||
+      (h.center() - origin).norm() > 0.5 * h.size().norm())
     return false;
 
   const Matrix9 c = normal.ldlt().solve(Matrix9::Identity());

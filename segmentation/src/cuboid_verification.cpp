@@ -7,6 +7,15 @@
 namespace hoist {
 namespace {
 
+// The product of the shares says which of two boxes is better explained; a logistic
+// turns it into the chance of being right.
+double
+calibrated(double product)
+{
+  constexpr double middle = 0.78, width = 0.04;
+  return 1 / (1 + std::exp((middle - product) / width));
+}
+
 // A side plane of the box as a linear function of the pixel: inverse depth a u + b v +
 // c.
 struct SidePlane {
@@ -42,8 +51,7 @@ flatShare(const PatchGrid& grid, double noise, double tolerance)
     // nothing measured is weak evidence against, seen through is strong
     const double weight = p.support + p.contradiction + 0.5 * p.missing;
     const double limit = tolerance + 2 * noise / std::sqrt(std::max(1, p.support));
-    if (p.support > p.contradiction + p.missing &&
-        std::abs(p.sum / p.support) < limit)
+    if (p.support > p.contradiction + p.missing && std::abs(p.sum / p.support) < limit)
       good += weight;
     else
       bad += weight;
@@ -231,6 +239,10 @@ verifyCuboid(const CuboidHypothesis& h,
     constexpr double min_cosine = 0.2;
     if (std::abs(h.axes.col(axis).dot(h.center().normalized())) < min_cosine)
       continue;
+    const double toward_camera = f % 2 == 0 ? -1.0 : 1.0;
+    Eigen::Vector3d local_center = (h.lower + h.upper) / 2;
+    local_center[axis] = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
+    const Eigen::Vector3d face_center = h.axes * local_center;
     for (int m = 0; m < n_hidden; ++m) {
       const int g = hidden[m];
       const int across = g / 2;
@@ -240,8 +252,8 @@ verifyCuboid(const CuboidHypothesis& h,
       Eigen::Vector3d p;
       p[axis] = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
       const double side = g % 2 == 0 ? -1.0 : 1.0;
-      // Far enough that the sensor's fringe is passed, in the image too: an oblique face
-      // is foreshortened.
+      // Far enough that the sensor's fringe is passed, in the image too: an oblique
+      // face is foreshortened.
       p[along] = 0.5 * (h.lower[along] + h.upper[along]);
       p[across] = g % 2 == 0 ? h.lower[across] : h.upper[across];
       const Eigen::Vector3d on_edge = h.axes * p;
@@ -270,9 +282,8 @@ verifyCuboid(const CuboidHypothesis& h,
         if (u < 0 || v < 0 || u >= image.cols || v >= image.rows || !(image(v, u) > 0))
           return false;
         const Eigen::Vector3d ray = camera.ray(u, v);
-        const double toward = h.axes.col(axis).dot(ray) * (f % 2 == 0 ? -1.0 : 1.0);
-        const double height =
-            toward / image(v, u) - at[axis] * (f % 2 == 0 ? -1.0 : 1.0);
+        const double toward = h.axes.col(axis).dot(ray) * toward_camera;
+        const double height = toward / image(v, u) - at[axis] * toward_camera;
         return height > 2 * (sensor.sigmaZ(x.z()) * std::abs(toward) + 0.5 * pixel);
       };
       EdgeEvidence edge;
@@ -302,26 +313,28 @@ verifyCuboid(const CuboidHypothesis& h,
         const double bound = f % 2 == 0 ? h.lower[axis] : h.upper[axis];
         const Eigen::Vector3d ray = camera.ray(u, v);
         const double cosine = std::abs(h.axes.col(axis).dot(ray));
-        const double height =
-            (h.axes.col(axis).dot(ray) / w - bound) * (f % 2 == 0 ? -1.0 : 1.0);
+        const double height = (h.axes.col(axis).dot(ray) / w - bound) * toward_camera;
         const double noise = sensor.sigmaZ(x.z()) * cosine + 0.5 * pixel;
         constexpr double gate = 2.5;
         if (height > gate * noise)
           continue; // covered or a surface that rises: says nothing
-        if (height > -gate * noise - beyond && risesFartherOut(p, across, side))
-          continue; // it stands on something
+        if (height > -gate * noise - beyond) {
+          // What the box stands on or leans against meets it concavely: the middle of
+          // the face lies in front of that surface.
+          const short label = labels(v, u);
+          if (label > 0) {
+            const PlanarFace& other = faces[label - 1];
+            const double turn = other.normal.dot(h.axes.col(axis)) * toward_camera;
+            if (turn < 0.94 && other.normal.dot(face_center) + other.offset > 2 * noise)
+              continue;
+          }
+          if (risesFartherOut(p, across, side))
+            continue;
+        }
         if (height < -gate * noise - beyond)
           ++edge.good;
         else
-{
           ++edge.bad;
-          const short label = labels(v, u);
-          if (label > 0) {
-            const double turn = faces[label - 1].normal.dot(h.axes.col(axis)) *
-                                (f % 2 == 0 ? -1.0 : 1.0);
-            edge.bent += turn > 0.3 && turn < 0.97 ? 1 : 0;
-          }
-        }
       }
       evidence.edges.push_back(edge);
     }
@@ -340,21 +353,28 @@ verifyCuboid(const CuboidHypothesis& h,
   }
   if (area_sum <= 0)
     return;
-  double good = 1, bad = 0, worst = 1;
+  double good = 1, bad = 0, worst = 1, excess = 0;
   for (const EdgeEvidence& e : evidence.edges) {
     good += e.good;
     bad += e.bad;
+    constexpr int min_edge_samples = 8;
+    if (e.samples >= min_edge_samples)
+      excess = std::max(excess, (e.bad - e.good) / static_cast<double>(e.samples));
     if (e.good + e.bad > 0.25 * e.samples)
       worst = std::min(worst, (e.good + 1.0) / (e.good + e.bad + 1.0));
   }
   evidence.flat = flat_sum / area_sum;
   evidence.outline = good / (good + bad);
   evidence.worst_edge = worst;
-  evidence.score = evidence.flat * evidence.flat * evidence.flat * evidence.outline;
+  evidence.score =
+      evidence.flat * evidence.flat * evidence.flat * evidence.outline * (1 - excess);
   for (const EndSource end : h.ends)
-    evidence.score *= end == EndSource::seen ? 1.0 : end == EndSource::support ? 0.95 : 0.6;
+    evidence.score *= end == EndSource::seen      ? 1.0
+                      : end == EndSource::support ? 0.95
+                                                  : 0.6;
   if (observed < 2)
     evidence.score *= 0.5; // one face: the third dimension is a guess
+  evidence.score = calibrated(evidence.score);
 }
 
 } // namespace hoist

@@ -59,7 +59,6 @@ toCuboid(const CuboidCandidate& candidate)
   }
   c.indices.assign(candidate.evidence.support.begin(),
                    candidate.evidence.support.end());
-  { const auto&e=candidate.evidence; c.segments={int(e.flat*1000),int(e.outline*1000),int(e.worst_edge*1000)}; for(auto&q:e.edges) {c.segments.push_back(q.samples);c.segments.push_back(q.good);c.segments.push_back(q.bad+1000*q.bent);} }
   canonicalize(c);
   return c;
 }
@@ -122,7 +121,7 @@ FullMode::segment(const FrameImages& images,
                  max_samples,
                  c.evidence);
     c.refined = false;
-    constexpr double min_start = 0.2; // what the first look must give
+    constexpr double min_start = 1e-4; // what the first look must give
     if (c.evidence.score > min_start) {
       CuboidHypothesis better = c.hypothesis;
       c.refined = refineCuboid(better,

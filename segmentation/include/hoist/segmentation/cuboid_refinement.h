@@ -21,24 +21,23 @@ struct CuboidCovariance {
 /** \brief Fits pose and size together to the face pixels and to the outline.
  *
  * Gauss-Newton on nine parameters (three turns, six ends) with robust weights. A face
- * pixel's residual is its distance to the face's plane over the sensor's noise along the
- * normal; an outline element's is its distance to the nearest end within the face's plane
- * over the lateral noise. Elements lie on the pixel's side, half a pixel outside of its
- * centre, which removes the shrink by half a pixel at every edge.
+ * pixel's residual is its distance to the face's plane over the sensor's noise along
+ * the normal; an outline element's is its distance to the nearest end within the face's
+ * plane over the lateral noise. Elements lie on the pixel's side, half a pixel outside
+ * of its centre, which removes the shrink by half a pixel at every edge.
  *
  * \param hypothesis start, overwritten with the result; a step that does not converge
  *        leaves it unchanged
  * \param evidence of the start; its supporting pixels are the face pixels
  * \return false if the fit is singular or moved away
  */
-HOIST_SEGMENTATION_EXPORT bool
-refineCuboid(CuboidHypothesis& hypothesis,
-             const CuboidEvidence& evidence,
-             const cv::Mat1f& inverse_depth,
-             const cv::Mat1s& labels,
-             const FaceBorders& borders,
-             const Intrinsics& camera,
-             const SensorModel& sensor,
-             CuboidCovariance& covariance);
+HOIST_SEGMENTATION_EXPORT bool refineCuboid(CuboidHypothesis& hypothesis,
+                                            const CuboidEvidence& evidence,
+                                            const cv::Mat1f& inverse_depth,
+                                            const cv::Mat1s& labels,
+                                            const FaceBorders& borders,
+                                            const Intrinsics& camera,
+                                            const SensorModel& sensor,
+                                            CuboidCovariance& covariance);
 
 } // namespace hoist

@@ -18,17 +18,16 @@ struct FaceEvidence {
   int occluded = 0;      ///< something nearer is in front
   int contradiction = 0; ///< the sensor saw through it
   int missing = 0;       ///< nothing measured
-  double flat = 0; ///< share of what is not covered where the mean depth is right
+  double flat = 0;       ///< share of what is not covered where the mean depth is right
 };
 
 /** \brief What the frame says of an edge between a visible and a hidden face. */
 struct EdgeEvidence {
-  int face = 0;     ///< the visible one
+  int face = 0;      ///< the visible one
   int neighbour = 0; ///< the hidden one
-  int samples = 0; ///< along the edge
-  int good = 0;    ///< the surface ends in a step
-  int bad = 0;     ///< it goes on beyond the box or bends away slowly
-  int bent = 0;    ///< of the bad: a face that meets this one at neither 0 nor 90 degrees
+  int samples = 0;   ///< along the edge
+  int good = 0;      ///< the surface ends in a step
+  int bad = 0;       ///< it goes on beyond the box or bends away slowly
 };
 
 /** \brief What the frame says of a cuboid. */
@@ -36,11 +35,11 @@ struct CuboidEvidence {
   std::array<FaceEvidence, 6> faces; ///< lower 0, upper 0, lower 1, ...
   std::array<bool, 6> visible{};     ///< faces that look at the camera
   std::vector<EdgeEvidence> edges;   ///< the outline
-  double flat = 0;       ///< share of the uncovered area that lies on the faces
-  double outline = 0;    ///< share of the outline where the surface ends
-  double worst_edge = 0; ///< the same of the worst edge
-  double score = 0;      ///< in [0, 1]
-  int stride = 1;        ///< one pixel in stride x stride was looked at
+  double flat = 0;          ///< share of the uncovered area that lies on the faces
+  double outline = 0;       ///< share of the outline where the surface ends
+  double worst_edge = 0;    ///< the same of the worst edge
+  double score = 0;         ///< in [0, 1]
+  int stride = 1;           ///< one pixel in stride x stride was looked at
   std::vector<int> support; ///< supporting pixels, indices into the frame
 
   int
