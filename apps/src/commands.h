@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace hoist {
+
+/** \brief Runs a command whose options have been parsed; returns an ExitCode.
+ *  \throws UsageError, FileError */
+using Action = std::function<int()>;
+
+/** \brief Adds the command to \a program. Its settings live in the returned action. */
+Action addRecognizeCommand(CLI::App& program);
+
+Action addInfoCommand(CLI::App& program);
+
+Action addConvertCommand(CLI::App& program);
+
+} // namespace hoist
