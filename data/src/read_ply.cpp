@@ -398,6 +398,8 @@ readPly(const std::string& file, const LoadOptions& options)
   std::vector<std::uint8_t> bytes;
   for (auto element = header.elements.begin(); element != header.elements.end();
        ++element) {
+    if (element->count == 0)
+      continue;
     const bool camera = element->name == "camera" && !element->has_list;
     if (element > vertex && !camera)
       break; // faces and the like: nothing of a frame follows
@@ -405,7 +407,7 @@ readPly(const std::string& file, const LoadOptions& options)
       throw LoadError(
           file, "", "its element " + shown(element->name) + " comes before the points");
     // items without properties take no bytes: millions of them would be read for ever
-    if (element->step == 0 || element->count == 0)
+    if (element->step == 0)
       continue;
     if (element == vertex)
       cloud.records.reserve(points);

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include <pcl/point_cloud.h>
+
 #include <vector>
 
 namespace hoist {
@@ -33,4 +35,19 @@ estimateIntrinsics(const Eigen::Ref<const Eigen::MatrixX2d>& rays,
 HOIST_DATA_EXPORT Intrinsics estimateIntrinsics(const cv::Mat3f& points,
                                                 int max_records = 4096);
 
+/** \brief The same from a cloud: organized, or of a type with fields u and v.
+ *
+ * Fields u and v are taken where PointT has them and the cloud is not organized, else
+ * the index is the pixel. Points that are not finite or have z <= 0 do not count. Uses
+ * a regular subset of at most \a max_records points. \throws
+ * pcl::UnorganizedPointCloudException if the cloud has neither a grid nor pixels
+ */
+template <typename PointT>
+Intrinsics estimateIntrinsics(const pcl::PointCloud<PointT>& cloud,
+                              int max_records = 4096);
+
 } // namespace hoist
+
+#ifdef PCL_NO_PRECOMPILE
+#include <hoist/data/impl/estimate_intrinsics.hpp>
+#endif
