@@ -3,6 +3,7 @@
 #include <hoist/data/cuboid.h>
 #include <hoist/data/frame_images.h>
 #include <hoist/data/result.h>
+#include <hoist/segmentation/cuboid_lines.h>
 #include <hoist/segmentation/full_mode.h>
 #include <hoist/segmentation/line_segment.h>
 #include <hoist/segmentation/paper_mode.h>
@@ -109,6 +110,32 @@ public:
     return full_parameters_.sensor;
   }
 
+  /** \brief Full mode: also find edge pixels, line segments and vertices, and name
+   * those that lie on each cuboid (default true). The cuboids do not depend on it;
+   * without it their lists and getSegments() and getVertices() are empty. */
+  void
+  setReportLines(bool report)
+  {
+    report_lines_ = report;
+  }
+
+  bool
+  getReportLines() const
+  {
+    return report_lines_;
+  }
+
+  /** \brief How near to a cuboid's edge a segment of the report must lie [m]; default
+   *  0.015, finite and >= 0.
+   *  \throw pcl::BadArgumentException outside that range */
+  void setLineDistance(double distance);
+
+  double
+  getLineDistance() const
+  {
+    return line_distance_;
+  }
+
   /** \brief Finds the cuboids.
    *  \param cuboids cleared, then filled, best score first. None found is a result;
    *         getDiagnostics tells why
@@ -147,6 +174,7 @@ public:
 
 private:
   bool segmentImages(const FrameImages& images, const cv::Mat1b& mask);
+  void listEdgePixels();
 
   FrameImages::ConstPtr images_;
   FrameImages::Ptr own_images_;
@@ -156,6 +184,9 @@ private:
   FullModeParameters full_parameters_;
   PaperMode paper_;
   FullMode full_;
+  CuboidLines lines_;
+  bool report_lines_ = true;
+  double line_distance_ = 0.015;
   PaperModeResult result_;
   pcl::Indices edge_pixels_;
   Diagnostics diagnostics_;

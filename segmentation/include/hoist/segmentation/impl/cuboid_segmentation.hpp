@@ -6,6 +6,8 @@
 #include <pcl/exceptions.h>
 #include <pcl/impl/pcl_base.hpp>
 
+#include <cmath>
+
 namespace hoist {
 
 template <typename PointT>
@@ -17,6 +19,17 @@ CuboidSegmentation<PointT>::setPaperParameters(const PaperModeParameters& parame
                         "hoist::CuboidSegmentation: a parameter of the paper "
                         "mode is out of range");
   paper_parameters_ = parameters;
+}
+
+template <typename PointT>
+void
+CuboidSegmentation<PointT>::setLineDistance(double distance)
+{
+  if (!(distance >= 0) || !std::isfinite(distance))
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::CuboidSegmentation: the line distance must be finite "
+                        "and >= 0 metres");
+  line_distance_ = distance;
 }
 
 template <typename PointT>
@@ -58,10 +71,7 @@ CuboidSegmentation<PointT>::segmentImages(const FrameImages& images,
       PCL_ERROR("[hoist::CuboidSegmentation::segment] The paper mode needs colour.\n");
       return false;
     }
-    for (int v = 0; v < result_.edges.rows; ++v)
-      for (int u = 0; u < result_.edges.cols; ++u)
-        if (result_.edges(v, u) != 0)
-          edge_pixels_.push_back(v * result_.edges.cols + u);
+    listEdgePixels();
     return true;
   }
   if (!full_.segment(images, mask, full_parameters_, result_.cuboids, diagnostics_)) {
@@ -70,7 +80,28 @@ CuboidSegmentation<PointT>::segmentImages(const FrameImages& images,
     result_.clear();
     return false;
   }
+  if (report_lines_) {
+    lines_.find(images,
+                mask,
+                full_parameters_.sensor,
+                result_.edges,
+                result_.segments,
+                result_.vertices,
+                diagnostics_);
+    attachLines(result_.segments, result_.vertices, line_distance_, result_.cuboids);
+    listEdgePixels();
+  }
   return true;
+}
+
+template <typename PointT>
+void
+CuboidSegmentation<PointT>::listEdgePixels()
+{
+  for (int v = 0; v < result_.edges.rows; ++v)
+    for (int u = 0; u < result_.edges.cols; ++u)
+      if (result_.edges(v, u) != 0)
+        edge_pixels_.push_back(v * result_.edges.cols + u);
 }
 
 } // namespace hoist
