@@ -341,7 +341,9 @@ CreaseFinder::drawLine(cv::Point2f from,
   const int steps = std::max(1, cvCeil(std::max(std::abs(d.x), std::abs(d.y))));
   for (int i = 0; i <= steps; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(steps);
-    const int u = cvRound(from.x + t * d.x), v = cvRound(from.y + t * d.y);
+    // not cvRound: it rounds halves to even, which would leave out every second row
+    const int u = cvFloor(from.x + t * d.x + 0.5F);
+    const int v = cvFloor(from.y + t * d.y + 0.5F);
     if (u >= 0 && v >= 0 && u < w.cols && v < w.rows && w(v, u) > 0)
       labels(v, u) |= flag;
   }

@@ -62,9 +62,27 @@ judge(const Line& w, int p, int q, float sigma, float sigmas)
       sigmas * sigma * std::sqrt(1 + (1 + ratio) * (1 + ratio) + ratio * ratio);
   const float before = slopeAt(w, p, 1, base, sigma);
   const float after = slopeAt(w, q, -1, base, sigma);
-  const float miss = std::min(std::abs(jump - before * static_cast<float>(gap)),
-                              std::abs(jump - after * static_cast<float>(gap)));
+  const float length = static_cast<float>(gap);
+  const float by_p = before * length, by_q = after * length;
+  if (gap <= 2) // a crease between p and q changes w by something between the two
+    return jump < std::min(by_p, by_q) - tolerance ||
+                   jump > std::max(by_p, by_q) + tolerance
+               ? Gap::step
+               : Gap::surface;
+  const float miss = std::min(std::abs(jump - by_p), std::abs(jump - by_q));
   return miss > tolerance ? Gap::step : Gap::surface;
+}
+
+// Is the unmeasured run through i longer than that?
+bool
+isLonger(const Line& w, int i, int length)
+{
+  int first = i, last = i;
+  while (first > 0 && last - first < length && w[first - 1] <= 0)
+    --first;
+  while (last + 1 < w.size && last - first < length && w[last + 1] <= 0)
+    ++last;
+  return last - first + 1 > length;
 }
 
 } // namespace
@@ -139,20 +157,27 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
   steps_.setTo(0);
   const int stride = static_cast<int>(w.step1());
 
-  // The gap from p to q, both measured, of a line; mark(i, flags) sets them.
-  const auto settle = [&](const Line& line, int p, int q, const auto& mark) {
-    if (q - p > max_gap) {
-      mark(p, step_near);
-      mark(q, step_near);
-      return;
-    }
-    const float sigma = noise(std::max(line[p], line[q]));
-    if (judge(line, p, q, sigma, sigmas) == Gap::step) {
-      const bool first_is_near = line[p] > line[q];
-      mark(first_is_near ? p : q, step_near);
-      mark(first_is_near ? q : p, step_far);
-    }
-  };
+  // The gap from p to q, both measured, of a line; mark(i, flags) sets them. `wide(i)`
+  // tells whether the unmeasured pixel i lies in a void across the line, too: a shadow
+  // is narrow in one direction, however long it is in the other.
+  const auto settle =
+      [&](const Line& line, int p, int q, const auto& mark, const auto& wide) {
+        if (q - p > max_gap) {
+          const bool ends_p = wide(p + 1), ends_q = wide(q - 1);
+          if (ends_p)
+            mark(p, step_near);
+          if (ends_q)
+            mark(q, step_near);
+          if (ends_p || ends_q)
+            return;
+        }
+        const float sigma = noise(std::max(line[p], line[q]));
+        if (judge(line, p, q, sigma, sigmas) == Gap::step) {
+          const bool first_is_near = line[p] > line[q];
+          mark(first_is_near ? p : q, step_near);
+          mark(first_is_near ? q : p, step_far);
+        }
+      };
 
   // rows, and candidates of columns in one pass; most pixels are no candidates
   candidates_.resize(static_cast<std::size_t>(cols) + 8);
@@ -179,6 +204,9 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
       candidates[u] = isCandidate(row[u], row[u + 1]);
     }
     const auto mark = [&](int u, StepSide side) { steps_(v, u) |= side; };
+    const auto wide = [&](int u) {
+      return isLonger({w[0] + u, stride, rows}, v, max_gap);
+    };
     int last = row[0] > 0 ? 0 : -1; // last measured pixel before a gap
     scan([&](int u) {
       if (row[u] > 0)
@@ -186,11 +214,11 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
       if (row[u + 1] <= 0)
         return;
       if (last >= 0)
-        settle(line, last, u + 1, mark);
-      else if (u + 1 > max_gap)
+        settle(line, last, u + 1, mark, wide);
+      else if (u + 1 > max_gap && wide(u))
         mark(u + 1, step_near);
     });
-    if (row[cols - 1] <= 0 && last >= 0 && cols - 1 - last > max_gap)
+    if (row[cols - 1] <= 0 && last >= 0 && cols - 1 - last > max_gap && wide(last + 1))
       mark(last, step_near);
   }
   last_.assign(static_cast<std::size_t>(cols), -1);
@@ -210,14 +238,16 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
       if (next[u] <= 0)
         return;
       const auto mark = [&](int i, StepSide side) { steps_(i, u) |= side; };
+      const auto wide = [&](int i) { return isLonger({w[i], 1, cols}, u, max_gap); };
       if (last_[u] >= 0)
-        settle({w[0] + u, stride, rows}, last_[u], v + 1, mark);
-      else if (v + 1 > max_gap)
+        settle({w[0] + u, stride, rows}, last_[u], v + 1, mark, wide);
+      else if (v + 1 > max_gap && wide(v))
         mark(v + 1, step_near);
     });
   }
   for (int u = 0; u < cols; ++u)
-    if (w(rows - 1, u) <= 0 && last_[u] >= 0 && rows - 1 - last_[u] > max_gap)
+    if (w(rows - 1, u) <= 0 && last_[u] >= 0 && rows - 1 - last_[u] > max_gap &&
+        isLonger({w[last_[u] + 1], 1, cols}, u, max_gap))
       steps_(last_[u], u) |= step_near;
 }
 

@@ -16,7 +16,7 @@ namespace hoist {
 struct DepthEdgeParameters {
   SensorModel sensor;     ///< all depth thresholds follow its sigmaZ
   double step_sigmas = 5; ///< smallest depth step, in sigmas of the nearer depth, > 0
-  int max_gap = 0;        ///< longest gap explained by a shadow [px]; 0: width / 10
+  int max_gap = 0;        ///< widest gap explained by a shadow [px]; 0: width / 10
 
   double crease_angle = 0.44; ///< smallest angle between two surfaces [rad], (0, pi/2)
   double crease_sigmas = 5;   ///< and how many sigmas it must stand out, > 0
@@ -50,9 +50,9 @@ struct InverseDepthNoise {
  * The edge is the pixel with the larger w, the near side: the shadow of unmeasured
  * pixels that a near object throws onto a far one belongs to the far one. A pixel that
  * is at once the far side of another step (mixed pixels between two surfaces) is not an
- * edge. A gap longer than max_gap is no shadow: the surfaces end there, and both its
- * ends are edges. The same holds for unmeasured runs up to the image border. The image
- * border itself is no edge.
+ * edge. A gap longer than max_gap both along and across the line is no shadow but a
+ * void: the surfaces end there, and both its ends are edges. The same holds for
+ * unmeasured runs up to the image border. The image border itself is no edge.
  *
  * Crease edge: see CreaseFinder.
  *

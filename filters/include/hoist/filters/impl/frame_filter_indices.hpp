@@ -100,6 +100,8 @@ FrameFilterIndices<PointT>::applyFilter(PointCloud& output)
   } restore{extract_removed_indices_, extract_removed_indices_};
   extract_removed_indices_ |= keep_organized_;
   Base::applyFilter(output);
+  if (!keep_organized_)
+    output.is_dense = true; // the base has copied the input's; all kept are finite
   if (!restore.value)
     removed_indices_->clear();
 }
