@@ -14,16 +14,24 @@ struct End {
   double value = 0;  // coordinate along the direction [m]
   bool seen = false; // false: the face is covered there, value is only a bound
   int votes = 0;
+  double pixel = 0; // what a pixel is worth along the direction [m]
 };
 
 class Ends {
 public:
-  Ends(const FaceBorders& borders) : borders_(borders) {}
-
-  // The end of a face along unit vector d. Window: width of a pile of votes [m].
-  End
-  find(int face, const Eigen::Vector3d& d, double window)
+  Ends(const std::vector<PlanarFace>& faces,
+       const FaceBorders& borders,
+       const Intrinsics& camera)
+  : faces_(faces), borders_(borders), camera_(camera)
   {
+  }
+
+  // The end of a face along unit vector d. Sigma: noise of the sensor there [m].
+  End
+  find(int face, const Eigen::Vector3d& d, double sigma)
+  {
+    const double pixel = footprint(faces_[face], d, camera_);
+    const double window = 2 * pixel + sigma;
     votes_.clear();
     double farthest = -std::numeric_limits<double>::max();
     const Eigen::Vector3f direction = d.cast<float>();
@@ -38,6 +46,7 @@ public:
         votes_.push_back(t);
     }
     End end;
+    end.pixel = pixel;
     end.value = farthest;
     if (votes_.empty())
       return end;
@@ -77,19 +86,22 @@ public:
 
   // The outermost end of several coplanar faces.
   End
-  find(const std::array<int, 2>& group, const Eigen::Vector3d& d, double window)
+  find(const std::array<int, 2>& group, const Eigen::Vector3d& d, double sigma)
   {
-    const End a = find(group[0], d, window);
+    const End a = find(group[0], d, sigma);
     if (group[1] < 0)
       return a;
-    const End b = find(group[1], d, window);
-    if (std::abs(a.value - b.value) < window && a.seen != b.seen)
+    const End b = find(group[1], d, sigma);
+    if (std::abs(a.value - b.value) < 2 * std::max(a.pixel, b.pixel) + sigma &&
+        a.seen != b.seen)
       return a.seen ? a : b;
     return a.value > b.value ? a : b;
   }
 
 private:
+  const std::vector<PlanarFace>& faces_;
   const FaceBorders& borders_;
+  const Intrinsics& camera_;
   std::vector<float> votes_;
 };
 
@@ -144,7 +156,7 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
                      std::vector<CuboidHypothesis>& hypotheses,
                      Diagnostics& diagnostics)
 {
-  Ends ends(borders);
+  Ends ends(faces, borders, camera);
   std::array<std::vector<int>, 2> partners;
   const auto addHypotheses = [&](const std::array<int, 2>& group_i,
                                  const std::array<int, 2>& group_j,
@@ -152,27 +164,27 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
     const PlanarFace &fi = faces[group_i[0]], &fj = faces[group_j[0]];
     const Eigen::Vector3d a = h.axes.col(0), b = h.axes.col(1), c = h.axes.col(2);
     const double z = 0.5 * (fi.centroid.z() + fj.centroid.z());
-    const double pixel = z / std::min(camera.fx, camera.fy);
     const double sigma = parameters.sensor.sigmaZ(z);
-    const double window = 2 * pixel + sigma;
 
-    // They must meet: each reaches the other's plane.
-    const double gate = 4 * pixel + 3 * sigma;
-    const End i_b = ends.find(group_i, b, window), j_a = ends.find(group_j, a, window);
-    const double gap_i = h.upper[1] - i_b.value, gap_j = h.upper[0] - j_a.value;
-    if ((i_b.seen && std::abs(gap_i) > gate) || (j_a.seen && std::abs(gap_j) > gate) ||
-        gap_i < -2 * gate || gap_j < -2 * gate || gap_i > 0.5 || gap_j > 0.5) {
+    // They must meet: each reaches the other's plane, or is covered before it does.
+    const End i_b = ends.find(group_i, b, sigma), j_a = ends.find(group_j, a, sigma);
+    const End i_back = ends.find(group_i, -b, sigma);
+    const End j_back = ends.find(group_j, -a, sigma);
+    const auto meets = [&](const End& end, const End& opposite, double edge) {
+      const double gap = edge - end.value;
+      const double gate = 4 * end.pixel + 3 * sigma;
+      const double extent = end.value + opposite.value;
+      return end.seen ? std::abs(gap) < gate : gap > -2 * gate && gap < gate + extent;
+    };
+    if (!meets(i_b, i_back, h.upper[1]) || !meets(j_a, j_back, h.upper[0])) {
       diagnostics.rejected.add("faces do not meet");
       return;
     }
-    const End i_back = ends.find(group_i, -b, window),
-              j_back = ends.find(group_j, -a, window);
     h.lower[1] = -i_back.value;
     h.lower[0] = -j_back.value;
-    const End i_up = ends.find(group_i, c, window),
-              j_up = ends.find(group_j, c, window);
-    const End i_down = ends.find(group_i, -c, window),
-              j_down = ends.find(group_j, -c, window);
+    const End i_up = ends.find(group_i, c, sigma), j_up = ends.find(group_j, c, sigma);
+    const End i_down = ends.find(group_i, -c, sigma),
+              j_down = ends.find(group_j, -c, sigma);
     // they share a part of the edge
     const double overlap =
         std::min(i_up.value, j_up.value) - std::max(-i_down.value, -j_down.value);
@@ -198,10 +210,12 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
       bool seen;
     };
     const auto choices = [&](const End& p, const End& q, Choice out[2]) {
+      const double window = 2 * std::max(p.pixel, q.pixel) + sigma;
       if (p.seen && q.seen) {
         if (std::abs(p.value - q.value) < window) {
-          out[0] = {(p.value * p.votes + q.value * q.votes) / (p.votes + q.votes),
-                    true};
+          const double wp = p.votes / (p.pixel * p.pixel);
+          const double wq = q.votes / (q.pixel * q.pixel);
+          out[0] = {(p.value * wp + q.value * wq) / (wp + wq), true};
           return 1;
         }
         out[0] = {std::max(p.value, q.value), true};

@@ -29,6 +29,7 @@ struct FacePixel {
 struct OutlinePoint {
   Eigen::Vector3d point; // [m]
   int end;               // of the box, lower 0, upper 0, lower 1, ...
+  double sigma;          // along the end's axis [m]
 };
 
 // Tukey's biweight of a residual in units of sigma, zero beyond c.
@@ -79,6 +80,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
              const CuboidEvidence& evidence,
              const cv::Mat1f& image,
              const cv::Mat1s& labels,
+             const std::vector<PlanarFace>& faces,
              const FaceBorders& borders,
              const Intrinsics& camera,
              const SensorModel& sensor,
@@ -121,7 +123,6 @@ refineCuboid(CuboidHypothesis& hypothesis,
 
   // Outline elements of those labels, each with the end it lies at.
   std::vector<OutlinePoint> outline;
-  const double reach = 1.5 * pixel + 0.5 * noise;
   for (const auto& vote : votes) {
     const int f = static_cast<int>(std::max_element(vote.begin() + 1, vote.end()) -
                                    vote.begin()) -
@@ -129,6 +130,9 @@ refineCuboid(CuboidHypothesis& hypothesis,
     if (vote[1 + f] < 5)
       continue;
     const int label = vote[0] - 1;
+    std::array<double, 3> step{}; // what a pixel is worth along each axis [m]
+    for (int i = 0; i < 3; ++i)
+      step[i] = footprint(faces[label], h.axes.col(i), camera);
     for (int i = borders.first[label]; i < borders.first[label + 1]; ++i) {
       const BorderElement& e = borders.elements[i];
       if (e.kind == BorderKind::occluded || e.kind == BorderKind::cut)
@@ -136,21 +140,37 @@ refineCuboid(CuboidHypothesis& hypothesis,
       const Eigen::Vector3d local = h.axes.transpose() * e.point.cast<double>();
       const Eigen::Vector3d outward = h.axes.transpose() * e.outward.cast<double>();
       int end = -1;
-      double nearest = reach;
+      double nearest = 1; // in units of the reach
       for (int g = 0; g < 6; ++g) {
         // ends at visible faces are where two planes meet: the pixels know them better
         if (g / 2 == f / 2 || evidence.visible[g])
           continue;
         if (outward[g / 2] * (g % 2 == 0 ? -1.0 : 1.0) < 0.3)
           continue;
-        const double d = std::abs(local[g / 2] - endOf(h, g));
+        const double reach = 1.5 * step[g / 2] + 0.5 * noise;
+        const double d = std::abs(local[g / 2] - endOf(h, g)) / reach;
         if (d < nearest) {
           nearest = d;
           end = g;
         }
       }
-      if (end >= 0)
-        outline.push_back({e.point.cast<double>(), end});
+      if (end < 0)
+        continue;
+      OutlinePoint point{e.point.cast<double>(), end, lateral_noise * step[end / 2]};
+      // Where the box stands on something, the two planes say better than the pixels
+      // where the face ends.
+      const Eigen::Vector3d axis = h.axes.col(end / 2) * (end % 2 == 0 ? -1.0 : 1.0);
+      if (e.kind == BorderKind::crease && e.neighbour >= 0 &&
+          faces[e.neighbour].normal.dot(axis) < -0.96) {
+        const PlanarFace& support = faces[e.neighbour];
+        const double t = -(support.normal.dot(point.point) + support.offset) /
+                         support.normal.dot(axis);
+        if (std::abs(t) < 2 * step[end / 2] + noise) {
+          point.point += t * axis;
+          point.sigma = 0.5 * noise;
+        }
+      }
+      outline.push_back(point);
     }
   }
 
@@ -189,7 +209,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
     for (const FacePixel& p : pixels)
       addResidual(p.point, p.face, p.sigma, share / face_correlation, 4.7);
     for (const OutlinePoint& p : outline)
-      addResidual(p.point, p.end, lateral_noise * pixel, 1 / border_correlation, 3.0);
+      addResidual(p.point, p.end, p.sigma, 1 / border_correlation, 3.0);
     // what nothing measures stays where the hypothesis put it
     for (int f = 0; f < 6; ++f) {
       // an end on a support is as good as the support's plane

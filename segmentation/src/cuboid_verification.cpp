@@ -161,7 +161,6 @@ verifyCuboid(const CuboidHypothesis& h,
   evidence.stride = stride;
 
   std::array<PatchGrid, 3> grids{}; // of the visible faces, in the order of front
-  const Eigen::Vector3d middle = (h.lower + h.upper) / 2, half = h.size() / 2;
   for (int v = top; v <= bottom; v += stride) {
     const float* row = image[v];
     for (int u = left; u <= right; u += stride) {

@@ -85,16 +85,18 @@ FullMode::segment(const FrameImages& images,
                 w.labels,
                 w.faces);
   diagnostics.counts.add("planar faces", w.faces.size());
+  SensorModel sensor = parameters.sensor;
+  sensor.scale *= w.finder.noiseScale();
   findFaceBorders(w.labels,
                   images.inverse_depth,
                   mask,
                   images.intrinsics,
-                  parameters.sensor,
+                  sensor,
                   w.faces,
                   w.borders);
 
   CuboidHypothesisParameters hypothesis_parameters;
-  hypothesis_parameters.sensor = parameters.sensor;
+  hypothesis_parameters.sensor = sensor;
   hypothesis_parameters.min_side = parameters.min_side;
   hypothesis_parameters.max_side = parameters.max_side;
   w.hypotheses.clear();
@@ -117,7 +119,7 @@ FullMode::segment(const FrameImages& images,
                  w.labels,
                  w.faces,
                  images.intrinsics,
-                 parameters.sensor,
+                 sensor,
                  max_samples,
                  c.evidence);
     c.refined = false;
@@ -128,9 +130,10 @@ FullMode::segment(const FrameImages& images,
                                c.evidence,
                                images.inverse_depth,
                                w.labels,
+                               w.faces,
                                w.borders,
                                images.intrinsics,
-                               parameters.sensor,
+                               sensor,
                                c.covariance);
       if (c.refined) {
         c.hypothesis = better;
@@ -139,7 +142,7 @@ FullMode::segment(const FrameImages& images,
                      w.labels,
                      w.faces,
                      images.intrinsics,
-                     parameters.sensor,
+                     sensor,
                      max_samples,
                      c.evidence);
       }

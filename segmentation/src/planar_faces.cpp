@@ -18,6 +18,18 @@ constexpr int table_size = 4096;
 
 } // namespace
 
+double
+footprint(const PlanarFace& face, const Eigen::Vector3d& d, const Intrinsics& camera)
+{
+  // x = ray / w with w = a u + b v + c; dx/du = (ex / fx) / w - ray a / w^2
+  const Eigen::Vector3d ray = face.centroid / face.centroid.z();
+  const double z = face.centroid.z();
+  const double along = d.dot(ray) * z * z;
+  const double du = d.x() / camera.fx * z - along * face.inverse_depth[0];
+  const double dv = d.y() / camera.fy * z - along * face.inverse_depth[1];
+  return std::hypot(du, dv);
+}
+
 PlanarFaceFinder::Moments&
 PlanarFaceFinder::Moments::operator+=(const Moments& o)
 {
@@ -113,6 +125,37 @@ PlanarFaceFinder::sumCells(const cv::Mat1f& image, const cv::Mat1b& mask)
       m.ww += ww;
     }
   }
+}
+
+void
+PlanarFaceFinder::estimateNoise()
+{
+  constexpr int window = 4; // cells
+  constexpr double floor = 0.05, ceiling = 1.0, waves = 2.0;
+  qualities_.clear();
+  Eigen::Vector3d plane;
+  for (int r = 0; r + window <= rows_; r += window)
+    for (int c = 0; c + window <= columns_; c += window) {
+      Moments sum;
+      for (int y = r; y < r + window; ++y)
+        for (int x = c; x < c + window; ++x)
+          sum += cells_[y * columns_ + x];
+      if (sum.n < window * window * min_cell_pixels || !sum.fit(plane))
+        continue;
+      double mean = 0, square = 0;
+      sum.residual(plane, mean, square);
+      qualities_.push_back(
+          static_cast<float>(std::sqrt(square) / sigma(sum.w / sum.n)));
+    }
+  noise_scale_ = ceiling;
+  if (qualities_.empty())
+    return;
+  const auto quartile =
+      qualities_.begin() + static_cast<std::ptrdiff_t>(qualities_.size() / 4);
+  std::nth_element(qualities_.begin(), quartile, qualities_.end());
+  noise_scale_ = std::min(ceiling, std::max(floor, waves * *quartile));
+  for (float& s : sigma_table_)
+    s *= static_cast<float>(noise_scale_);
 }
 
 void
@@ -471,6 +514,7 @@ PlanarFaceFinder::find(const cv::Mat1f& inverse_depth,
     sigma_table_[i] = static_cast<float>(parameters.sensor.sigmaZ(1 / w) * w * w);
   }
   sumCells(inverse_depth, mask);
+  estimateNoise();
   owner_.assign(cells_.size(), 0);
   constexpr int windows[][2] = {{4, 4}, {2, 2}, {4, 1}, {1, 4}};
   for (const auto& window : windows) {

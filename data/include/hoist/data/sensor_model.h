@@ -18,6 +18,7 @@ struct SensorModel {
   double focal_baseline = 0.0;  ///< stereo: f * B [px m], > 0
   double sigma_disparity = 0.2; ///< stereo: standard deviation of the disparity [px]
   double sigma_constant = 0.0;  ///< constant: standard deviation of z [m]
+  double scale = 1.0; ///< factor on the whole, e.g. from the frame itself, > 0
 
   static SensorModel
   kinect()
@@ -30,14 +31,21 @@ struct SensorModel {
   static SensorModel
   stereo(double focal_baseline, double sigma_disparity = 0.2)
   {
-    return {Kind::stereo, focal_baseline, sigma_disparity, 0.0};
+    SensorModel model;
+    model.kind = Kind::stereo;
+    model.focal_baseline = focal_baseline;
+    model.sigma_disparity = sigma_disparity;
+    return model;
   }
 
   /** \param sigma standard deviation of z at any depth [m] */
   static SensorModel
   constant(double sigma)
   {
-    return {Kind::constant, 0.0, 0.0, sigma};
+    SensorModel model;
+    model.kind = Kind::constant;
+    model.sigma_constant = sigma;
+    return model;
   }
 
   /** \brief Standard deviation of a depth [m] measured at depth \a z [m], z > 0. */
@@ -46,13 +54,13 @@ struct SensorModel {
   {
     switch (kind) {
     case Kind::stereo:
-      return z * z * sigma_disparity / focal_baseline;
+      return scale * z * z * sigma_disparity / focal_baseline;
     case Kind::constant:
-      return sigma_constant;
+      return scale * sigma_constant;
     case Kind::kinect:
       break;
     }
-    return 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+    return scale * (0.0012 + 0.0019 * (z - 0.4) * (z - 0.4));
   }
 };
 

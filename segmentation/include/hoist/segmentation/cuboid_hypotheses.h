@@ -24,8 +24,9 @@ enum class EndSource : unsigned char {
  * The box is axes * [lower, upper]: its points have axes^T x between lower and upper.
  */
 struct CuboidHypothesis {
-  Eigen::Matrix3d axes; ///< right handed
-  Eigen::Vector3d lower, upper;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< right handed
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   /// How each end is known: lower 0, upper 0, lower 1, ...
   std::array<EndSource, 6> ends{};
   std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
