@@ -22,11 +22,12 @@ struct LoadedFrame {
   /// Organized; x, y, z NaN where nothing was measured, is_dense says so truly. The
   /// sensor pose of the file is in sensor_origin_ and sensor_orientation_.
   pcl::PointCloud<pcl::PointXYZRGB>::Ptr cloud;
-  Intrinsics intrinsics; ///< recovered from the points; not valid() with too few of them
+  Intrinsics
+      intrinsics; ///< recovered from the points; not valid() with too few of them
   bool has_color = false; ///< rgb or, as grey, intensity
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity(); ///< sensor to world
   bool pose_known = false; ///< the file holds a pose other than the identity
-  std::string format;      ///< e.g. "PCD binary_compressed", "PTS Bumblebee", "PLY ascii"
+  std::string format; ///< e.g. "PCD binary_compressed", "PTS Bumblebee", "PLY ascii"
   std::vector<std::string> warnings; ///< in words, for people
 };
 
@@ -49,14 +50,14 @@ struct LoadOptions {
  *
  * A cloud that has lost its grid (height 1) gets it back from fields u and v; else by
  * projection with \a options.intrinsics; else with the Kinect's 525 px, 319.5, 239.5 if
- * 99 % of the points fall on its 640 x 480 pixels within 0.05 px. The nearest of several
- * points on one pixel stays.
+ * 99 % of the points fall on its 640 x 480 pixels within 0.05 px. The nearest of
+ * several points on one pixel stays.
  *
  * Files are checked before memory is asked for: no input makes it crash, hang or use
  * memory that the file's own size does not justify.
  * \throws LoadError naming file, position and cause
  */
-HOIST_DATA_EXPORT LoadedFrame
-loadFrame(const std::string& file, const LoadOptions& options = {});
+HOIST_DATA_EXPORT LoadedFrame loadFrame(const std::string& file,
+                                        const LoadOptions& options = {});
 
 } // namespace hoist
