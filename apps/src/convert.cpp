@@ -116,13 +116,13 @@ addConvertCommand(CLI::App& program)
       "convert",
       "Rewrite a frame as PCD, PTS (Bumblebee) or PLY, by the ending of OUT");
   auto settings = std::make_shared<ConvertSettings>();
-  command->add_option("input", settings->input, "PCD, PTS or PLY file of a frame")
+  command->add_option("IN", settings->input, "PCD, PTS or PLY file of a frame")
       ->required()
       ->check(CLI::ExistingFile)
-      ->type_name("IN");
-  command->add_option("output", settings->output, "The new file; replaced if it exists")
+      ->type_name("");
+  command->add_option("OUT", settings->output, "The new file; replaced if it exists")
       ->required()
-      ->type_name("OUT");
+      ->type_name("");
   command->add_flag(
       "--ascii", settings->ascii, "PCD and PLY as text (default: binary)");
   command->footer(

@@ -93,10 +93,10 @@ addInfoCommand(CLI::App& program)
   CLI::App* command = program.add_subcommand(
       "info", "Tell what is in frames: size, depth, camera, sensor pose");
   auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("files", *files, "PCD, PTS or PLY files of organized clouds")
+  command->add_option("FILE", *files, "PCD, PTS or PLY files of organized clouds")
       ->required()
       ->check(CLI::ExistingFile)
-      ->type_name("FILE");
+      ->type_name("");
   return [files] { return showFiles(*files); };
 }
 

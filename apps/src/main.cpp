@@ -1,6 +1,7 @@
 // hoist: cuboids from organized clouds, on the command line.
 #include "commands.h"
 #include "failures.h"
+#include "help.h"
 
 #include <pcl/console/print.h>
 
@@ -8,6 +9,8 @@
 
 #include <cstdio>
 #include <exception>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +38,31 @@ usageFailure(const CLI::App& program, const std::string& reason)
   return hoist::exit_usage;
 }
 
+// A command or a long option that does not exist. CLI11 would complain of what follows
+// from it instead, e.g. of the option's value as a file that is missing.
+std::string
+unknownWord(const CLI::App& program, int argc, char** argv)
+{
+  const CLI::App* command = &program;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--")
+      break;
+    if (word.rfind("--", 0) == 0) {
+      if (command->get_option_no_throw(word.substr(0, word.find('='))) == nullptr)
+        return "unknown option " + word.substr(0, word.find('='));
+    }
+    else if (command == &program && word.rfind('-', 0) != 0) {
+      const std::vector<const CLI::App*> found = program.get_subcommands(
+          [&](const CLI::App* one) { return one->get_name() == word; });
+      if (found.empty())
+        return "unknown command '" + word + "'";
+      command = found.front();
+    }
+  }
+  return "";
+}
+
 } // namespace
 
 int
@@ -45,6 +73,7 @@ main(int argc, char** argv)
 
   CLI::App program("Finds cuboids in organized coloured point clouds: where they are, "
                    "how they lie,\nhow large they are and what colour they have.");
+  program.formatter(std::make_shared<hoist::HelpFormatter>()); // commands inherit it
   program.name("hoist");
   program.footer(footer);
   program.set_version_flag("--version", HOIST_VERSION);
@@ -53,6 +82,9 @@ main(int argc, char** argv)
                                               hoist::addInfoCommand(program),
                                               hoist::addConvertCommand(program)};
   try {
+    const std::string unknown = unknownWord(program, argc, argv);
+    if (!unknown.empty())
+      return usageFailure(program, unknown);
     program.parse(argc, argv);
     const std::vector<CLI::App*> commands = program.get_subcommands({});
     for (std::size_t i = 0; i < commands.size(); ++i)

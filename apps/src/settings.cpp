@@ -15,11 +15,11 @@ namespace {
 void
 addCommon(CLI::App& command, RecognizeSettings& s)
 {
-  command.add_option("files", s.files, "PCD, PTS or PLY files of organized clouds")
+  command.add_option("FILE", s.files, "PCD, PTS or PLY files of organized clouds")
       ->required()
       ->check(CLI::ExistingFile)
       ->configurable(false)
-      ->type_name("FILE");
+      ->type_name("");
   command
       .add_option("-o,--output", s.output, "Folder for the results; made if missing")
       ->type_name("DIR");

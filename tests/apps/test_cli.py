@@ -137,6 +137,9 @@ class Usage(CommandLine):
     def test_unknown_option(self):
         frame = self.sample("scenes/crate.pcd")
         self.assert_one_line(hoist("recognize", frame, "--radius", 1), 2, "--radius")
+        self.assert_one_line(hoist("recognize", frame, "--radius=1"), 2, "--radius")
+        self.assert_one_line(hoist("recognize", frame, "-z"), 2, "-z")
+        self.assert_one_line(hoist("--verbose", "info", frame), 2, "--verbose")
 
     def test_missing_file(self):
         for command in ("recognize", "info"):
@@ -283,11 +286,13 @@ class Recognize(CommandLine):
         self.assertEqual(hoist("recognize", "-q", *frames).stderr, "")
 
     def test_finds_the_sample_boxes(self):
-        """Every box of the truth is met by a cuboid: centre within 2 cm."""
+        """Every visible box is met by a cuboid: centre within 2 cm."""
         for truth_file in sorted((SAMPLES / "truth").glob("*.json")):
             truth = json.loads(truth_file.read_text(encoding="utf-8"))
             found = self.recognize(self.sample(f"scenes/{truth_file.stem}.pcd"))
             for box in truth["cuboids"]:
+                if box["difficult"]:  # hardly visible
+                    continue
                 nearest = min((math.dist(box["center"], c["center"])
                                for c in found["cuboids"]), default=math.inf)
                 with self.subTest(scene=truth_file.stem, box=box["center"]):
@@ -351,7 +356,7 @@ class Recognize(CommandLine):
             self.assertIn("no cuboid", result.stdout)
             found = strict_json((self.folder / "wall.json").read_text())
             self.assertEqual(found["cuboids"], [])
-            self.assertIn("diagnostics", found)
+            self.assertIn("rejected", found)
             self.assertTrue((self.folder / "wall.png").is_file())
 
     def test_frame_without_colour(self):
