@@ -97,11 +97,6 @@ addMethod(CLI::App& command, RecognizeSettings& s)
       ->type_name("N")
       ->capture_default_str()
       ->group(group);
-  command
-      .add_flag("--single-faces",
-                s.full.allow_single_face,
-                "Report cuboids of which only one face is seen, too (full mode)")
-      ->group(group);
 
   std::vector<std::string> names;
   for (const Material& material : materials())

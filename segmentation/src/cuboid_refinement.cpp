@@ -18,7 +18,7 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 constexpr double face_correlation = 50;
 constexpr double border_correlation = 6;
 constexpr double lateral_noise = 0.8; // of an outline element [px]
-constexpr int max_face_pixels = 1500;
+constexpr int max_face_pixels = 700;
 
 struct FacePixel {
   Eigen::Vector3d point; // [m]
@@ -184,7 +184,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
   const Vector9 start = ends;
   Eigen::Matrix3d axes = h.axes;
   Matrix9 normal;
-  constexpr int iterations = 6;
+  constexpr int iterations = 5;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     normal.setZero();
     Vector9 gradient = Vector9::Zero();

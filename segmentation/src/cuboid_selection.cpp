@@ -29,7 +29,6 @@ volumeShare(const CuboidHypothesis& a, const CuboidHypothesis& b)
 void
 selectCuboids(const std::vector<CuboidCandidate>& candidates,
               double min_score,
-              int frame_pixels,
               std::vector<int>& chosen)
 {
   chosen.clear();
@@ -45,8 +44,6 @@ selectCuboids(const std::vector<CuboidCandidate>& candidates,
     return value[a] > value[b] || (value[a] == value[b] && a < b);
   });
 
-  // Pixel sets at a common resolution of 4 x 4 pixels.
-  (void)frame_pixels;
   const auto conflict = [&](int a, int b) {
     const auto &ca = candidates[a], &cb = candidates[b];
     const double reach = ca.hypothesis.size().norm() + cb.hypothesis.size().norm();

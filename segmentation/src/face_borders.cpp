@@ -105,25 +105,13 @@ findFaceBorders(const cv::Mat1s& labels,
   };
   constexpr int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
-  // two passes, count then fill, so that elements lie face by face without sorting
+  // Collected in one walk, then laid out face by face without sorting.
   borders.first.assign(n + 1, 0);
-  std::vector<int>& first = borders.first;
-  for (int v = 0; v < height; ++v)
+  borders.found.clear();
+  for (int v = 0; v < height; ++v) {
+    const short* row = labels[v];
     for (int u = 0; u < width; ++u) {
-      const short label = labels(v, u);
-      if (label == 0)
-        continue;
-      for (const auto& s : steps)
-        if (at(u + s[0], v + s[1]) != label)
-          ++first[label];
-    }
-  for (int i = 0; i < n; ++i)
-    first[i + 1] += first[i];
-  borders.elements.resize(first[n]);
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      const short label = labels(v, u);
+      const short label = row[u];
       if (label == 0)
         continue;
       for (const auto& s : steps) {
@@ -135,14 +123,24 @@ findFaceBorders(const cv::Mat1s& labels,
         const Eigen::Vector3d p = camera.ray(x, y) / walker.plane(face, x, y);
         const double x2 = x + s[0], y2 = y + s[1];
         const Eigen::Vector3d q = camera.ray(x2, y2) / walker.plane(face, x2, y2);
-        BorderElement& e = borders.elements[next[face]++];
+        BorderElement e;
         e.pixel = {static_cast<float>(x), static_cast<float>(y)};
         e.point = p.cast<float>();
         e.outward = (q - p).normalized().cast<float>();
         e.kind = beyond.kind;
+        e.face = static_cast<short>(face);
         e.neighbour = beyond.neighbour;
+        borders.found.push_back(e);
+        ++borders.first[label];
       }
     }
+  }
+  for (int i = 0; i < n; ++i)
+    borders.first[i + 1] += borders.first[i];
+  borders.elements.resize(borders.found.size());
+  borders.next.assign(borders.first.begin(), borders.first.end() - 1);
+  for (const BorderElement& e : borders.found)
+    borders.elements[borders.next[e.face]++] = e;
 }
 
 } // namespace hoist

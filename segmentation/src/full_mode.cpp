@@ -6,7 +6,9 @@
 #include <hoist/segmentation/face_borders.h>
 #include <hoist/segmentation/planar_faces.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hoist {
 
@@ -17,7 +19,7 @@ struct FullMode::Workspace {
   FaceBorders borders;
   std::vector<CuboidHypothesis> hypotheses;
   std::vector<CuboidCandidate> candidates;
-  std::vector<int> chosen;
+  std::vector<int> order, done, chosen;
 };
 
 FullMode::FullMode() : workspace_(std::make_unique<Workspace>()) {}
@@ -45,8 +47,10 @@ toCuboid(const CuboidCandidate& candidate)
   for (int i = 0; i < 3; ++i) {
     const EndSource a = h.ends[2 * i], b = h.ends[2 * i + 1];
     c.dimension_source[i] = DimensionSource::measured;
-    if (a == EndSource::bound || b == EndSource::bound)
+    if (a == EndSource::bound || b == EndSource::bound) {
       c.dimension_source[i] = DimensionSource::partial;
+      c.size_sigma[i] = std::numeric_limits<double>::quiet_NaN();
+    }
     else if (a == EndSource::support || b == EndSource::support)
       c.dimension_source[i] = DimensionSource::support;
     for (int side = 0; side < 2; ++side) {
@@ -61,6 +65,29 @@ toCuboid(const CuboidCandidate& candidate)
                    candidate.evidence.support.end());
   canonicalize(c);
   return c;
+}
+
+// Boxes that differ by less than refinement moves them, whatever their axes are called,
+// and whose ends are known alike.
+bool
+alike(const CuboidHypothesis& a, const CuboidHypothesis& b)
+{
+  constexpr double tolerance = 0.02; // of the diagonal
+  const double gate = tolerance * a.size().norm();
+  if ((a.center() - b.center()).norm() > gate)
+    return false;
+  for (int i = 0; i < 3; ++i) {
+    int j = 0;
+    const double cosine = (b.axes.transpose() * a.axes.col(i)).cwiseAbs().maxCoeff(&j);
+    constexpr double min_cosine = 0.995;
+    if (cosine < min_cosine || std::abs(a.size()[i] - b.size()[j]) > gate)
+      return false;
+    const bool flip = b.axes.col(j).dot(a.axes.col(i)) < 0;
+    if (a.ends[2 * i] != b.ends[2 * j + (flip ? 1 : 0)] ||
+        a.ends[2 * i + 1] != b.ends[2 * j + (flip ? 0 : 1)])
+      return false;
+  }
+  return true;
 }
 
 } // namespace
@@ -109,11 +136,7 @@ FullMode::segment(const FrameImages& images,
   extendToSupport(w.faces, hypothesis_parameters, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 
-  constexpr int max_samples = 4000;
-  w.candidates.resize(w.hypotheses.size());
-  for (std::size_t i = 0; i < w.hypotheses.size(); ++i) {
-    CuboidCandidate& c = w.candidates[i];
-    c.hypothesis = w.hypotheses[i];
+  const auto verify = [&](CuboidCandidate& c, int max_samples) {
     verifyCuboid(c.hypothesis,
                  images.inverse_depth,
                  w.labels,
@@ -122,42 +145,62 @@ FullMode::segment(const FrameImages& images,
                  sensor,
                  max_samples,
                  c.evidence);
+  };
+  // A quick look at all, then the promising ones are refined, the best first; a box
+  // that starts where one has been refined would end there too.
+  constexpr int quick_samples = 600, samples = 3000;
+  w.candidates.resize(w.hypotheses.size());
+  w.order.clear();
+  for (std::size_t i = 0; i < w.hypotheses.size(); ++i) {
+    CuboidCandidate& c = w.candidates[i];
+    c.hypothesis = w.hypotheses[i];
     c.refined = false;
-    constexpr double min_start = 1e-4; // what the first look must give
-    if (c.evidence.score > min_start) {
-      CuboidHypothesis better = c.hypothesis;
-      c.refined = refineCuboid(better,
-                               c.evidence,
-                               images.inverse_depth,
-                               w.labels,
-                               w.faces,
-                               w.borders,
-                               images.intrinsics,
-                               sensor,
-                               c.covariance);
-      if (c.refined) {
-        c.hypothesis = better;
-        verifyCuboid(c.hypothesis,
-                     images.inverse_depth,
-                     w.labels,
-                     w.faces,
-                     images.intrinsics,
-                     sensor,
-                     max_samples,
-                     c.evidence);
-      }
+    verify(c, quick_samples);
+    constexpr double min_flat = 0.5, min_outline = 0.4;
+    if (c.evidence.flat < min_flat || c.evidence.outline < min_outline) {
+      c.evidence.score = 0;
+      diagnostics.rejected.add("the frame contradicts it");
+      continue;
     }
+    w.order.push_back(static_cast<int>(i));
+  }
+  std::sort(w.order.begin(), w.order.end(), [&](int a, int b) {
+    const CuboidEvidence &ea = w.candidates[a].evidence, &eb = w.candidates[b].evidence;
+    const double va = ea.flat * ea.outline * ea.supported() * ea.stride * ea.stride;
+    const double vb = eb.flat * eb.outline * eb.supported() * eb.stride * eb.stride;
+    return va > vb || (va == vb && a < b);
+  });
+  w.done.clear();
+  for (const int i : w.order) {
+    CuboidCandidate& c = w.candidates[i];
+    const auto same = [&](int k) { return alike(w.hypotheses[k], w.hypotheses[i]); };
+    if (std::any_of(w.done.begin(), w.done.end(), same)) {
+      c.evidence.score = 0;
+      diagnostics.rejected.add("the same as another");
+      continue;
+    }
+    w.done.push_back(i);
+    verify(c, samples);
+    c.refined = refineCuboid(c.hypothesis,
+                             c.evidence,
+                             images.inverse_depth,
+                             w.labels,
+                             w.faces,
+                             w.borders,
+                             images.intrinsics,
+                             sensor,
+                             c.covariance);
+    if (c.refined)
+      verify(c, samples);
     if (c.evidence.score < parameters.min_score)
       diagnostics.rejected.add("score below the minimum");
   }
-  selectCuboids(w.candidates,
-                parameters.min_score,
-                static_cast<int>(images.inverse_depth.total()),
-                w.chosen);
+  selectCuboids(w.candidates, parameters.min_score, w.chosen);
   for (const int i : w.chosen) {
     if (parameters.max_cuboids > 0 &&
         static_cast<int>(cuboids.size()) >= parameters.max_cuboids)
       break;
+    verify(w.candidates[i], std::numeric_limits<int>::max()); // every supporting pixel
     cuboids.push_back(toCuboid(w.candidates[i]));
   }
   diagnostics.counts.add("cuboids", cuboids.size());

@@ -393,31 +393,118 @@ PlanarFaceFinder::labelPixels(const cv::Mat1f& image,
 
   // Where two faces meet, each pixel goes to the plane it fits best: the border moves
   // to the line where the planes intersect. A few sweeps reach as far as a cell.
-  for (int sweep = 0; sweep < cell_size; ++sweep)
-    for (int v = 1; v + 1 < height; ++v) {
-      short* row = labels[v];
-      const short *above = labels[v - 1], *below = labels[v + 1];
-      for (int u = 1; u + 1 < width; ++u) {
-        const short own = row[u];
-        if (own == 0)
-          continue;
-        if (row[u - 1] == own && row[u + 1] == own && above[u] == own &&
-            below[u] == own)
-          continue;
-        const float w = image(v, u);
-        short best = own;
-        double best_residual = residual(own, u, v, w);
-        for (const short other : {row[u - 1], row[u + 1], above[u], below[u]})
-          if (other != 0 && other != best) {
-            const double d = residual(other, u, v, w);
-            if (d < best_residual) {
-              best_residual = d;
-              best = other;
-            }
-          }
-        row[u] = best;
+  const auto settle = [&](int u, int v) {
+    short* row = labels[v];
+    const short own = row[u];
+    const short up = labels(v - 1, u), down = labels(v + 1, u);
+    if (own == 0 ||
+        (row[u - 1] == own && row[u + 1] == own && up == own && down == own))
+      return;
+    const float w = image(v, u);
+    short best = own;
+    double best_residual = residual(own, u, v, w);
+    for (const short other : {row[u - 1], row[u + 1], up, down})
+      if (other != 0 && other != best) {
+        const double d = residual(other, u, v, w);
+        if (d < best_residual) {
+          best_residual = d;
+          best = other;
+        }
       }
+    if (best != own) {
+      row[u] = best;
+      next_.push_back(v * width + u);
     }
+  };
+  next_.clear();
+  for (int v = 1; v + 1 < height; ++v)
+    for (int u = 1; u + 1 < width; ++u)
+      settle(u, v);
+  for (int sweep = 1; sweep < cell_size; ++sweep) {
+    queue_.swap(next_);
+    next_.clear();
+    for (const int index : queue_) {
+      const int u = index % width, v = index / width;
+      if (u > 1)
+        settle(u - 1, v);
+      if (u + 2 < width)
+        settle(u + 1, v);
+      if (v > 1)
+        settle(u, v - 1);
+      if (v + 2 < height)
+        settle(u, v + 1);
+    }
+  }
+}
+
+void
+PlanarFaceFinder::addSlivers(const cv::Mat1f& image,
+                             const cv::Mat1b& mask,
+                             cv::Mat1s& labels)
+{
+  constexpr short seen = -1; // visited, belongs to no face
+  const int width = image.cols, height = image.rows;
+  const auto open = [&](int u, int v) {
+    return labels(v, u) == 0 && image(v, u) > 0 && (mask.empty() || mask(v, u) != 0);
+  };
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      if (!open(u, v))
+        continue;
+      // a connected piece without a break in depth
+      queue_.clear();
+      queue_.push_back(v * width + u);
+      labels(v, u) = seen;
+      Moments sum;
+      for (std::size_t i = 0; i < queue_.size(); ++i) {
+        const int x = queue_[i] % width, y = queue_[i] / width;
+        const double w = image(y, x);
+        Moments m;
+        m.n = 1;
+        m.u = x;
+        m.v = y;
+        m.uu = static_cast<double>(x) * x;
+        m.uv = static_cast<double>(x) * y;
+        m.vv = static_cast<double>(y) * y;
+        m.w = w;
+        m.uw = x * w;
+        m.vw = y * w;
+        m.ww = w * w;
+        sum += m;
+        const auto visit = [&](int x2, int y2) {
+          constexpr double max_step = 0.02; // of the inverse depth
+          if (x2 < 0 || y2 < 0 || x2 >= width || y2 >= height || !open(x2, y2) ||
+              std::abs(image(y2, x2) - w) > max_step * w)
+            return;
+          labels(y2, x2) = seen;
+          queue_.push_back(y2 * width + x2);
+        };
+        visit(x - 1, y);
+        visit(x + 1, y);
+        visit(x, y - 1);
+        visit(x, y + 1);
+      }
+      Eigen::Vector3d plane;
+      if (sum.n < parameters_.min_pixels || !sum.fit(plane))
+        continue;
+      double mean = 0, square = 0;
+      sum.residual(plane, mean, square);
+      // depth taken half a pixel beside shifts by half a pixel's slope
+      const double slope = 0.5 * std::hypot(plane[0], plane[1]);
+      const double limit = std::hypot(1.2 * sigma(sum.w / sum.n), slope);
+      if (square > limit * limit ||
+          planes_.size() + 1 >= std::numeric_limits<short>::max())
+        continue;
+      planes_.push_back(plane);
+      sums_.push_back(sum);
+      for (const int index : queue_)
+        labels(index / width, index % width) = static_cast<short>(planes_.size());
+    }
+  for (int v = 0; v < height; ++v) {
+    short* row = labels[v];
+    for (int u = 0; u < width; ++u)
+      row[u] = std::max(row[u], short{0});
+  }
 }
 
 void
@@ -431,26 +518,45 @@ PlanarFaceFinder::describe(const cv::Mat1f& image,
   std::vector<cv::Rect> boxes(n);
   std::vector<std::array<int, 4>> bounds(
       n, {std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), -1, -1});
-  for (int v = 0; v < image.rows; ++v)
-    for (int u = 0; u < image.cols; ++u) {
-      const short label = labels(v, u);
-      if (label == 0)
+  // Run by run: within a run the sums over u and v are known in closed form.
+  for (int v = 0; v < image.rows; ++v) {
+    const short* row = labels[v];
+    const float* depth = image[v];
+    for (int u = 0; u < image.cols;) {
+      const short label = row[u];
+      const int first = u;
+      double sw = 0, uw = 0, ww = 0;
+      if (label == 0) {
+        while (u < image.cols && row[u] == 0)
+          ++u;
         continue;
-      const double w = image(v, u);
+      }
+      for (; u < image.cols && row[u] == label; ++u) {
+        const double w = depth[u];
+        sw += w;
+        uw += (u - first) * w;
+        ww += w * w;
+      }
+      const double k = u - first;
+      const double su = k * first + k * (k - 1) / 2;
       Moments& m = sums[label - 1];
-      m.n += 1;
-      m.u += u;
-      m.v += v;
-      m.uu += static_cast<double>(u) * u;
-      m.uv += static_cast<double>(u) * v;
-      m.vv += static_cast<double>(v) * v;
-      m.w += w;
-      m.uw += u * w;
-      m.vw += v * w;
-      m.ww += w * w;
+      m.n += k;
+      m.u += su;
+      m.v += k * v;
+      m.uu += k * first * first + first * k * (k - 1) + (k - 1) * k * (2 * k - 1) / 6;
+      m.uv += su * v;
+      m.vv += k * v * v;
+      m.w += sw;
+      m.uw += uw + first * sw;
+      m.vw += sw * v;
+      m.ww += ww;
       auto& b = bounds[label - 1];
-      b = {std::min(b[0], u), std::min(b[1], v), std::max(b[2], u), std::max(b[3], v)};
+      b = {std::min(b[0], first),
+           std::min(b[1], v),
+           std::max(b[2], u - 1),
+           std::max(b[3], v)};
     }
+  }
 
   std::vector<short> number(n + 1, 0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -527,6 +633,7 @@ PlanarFaceFinder::find(const cv::Mat1f& inverse_depth,
   }
   mergeCoplanar();
   labelPixels(inverse_depth, mask, labels);
+  addSlivers(inverse_depth, mask, labels);
   describe(inverse_depth, camera, labels, faces);
 }
 

@@ -28,7 +28,6 @@ struct CuboidCandidate {
 HOIST_SEGMENTATION_EXPORT void
 selectCuboids(const std::vector<CuboidCandidate>& candidates,
               double min_score,
-              int frame_pixels,
               std::vector<int>& chosen);
 
 } // namespace hoist

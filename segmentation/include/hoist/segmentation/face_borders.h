@@ -25,6 +25,7 @@ struct BorderElement {
   Eigen::Vector3f point;   ///< the same on the face's plane, camera frame [m]
   Eigen::Vector3f outward; ///< unit direction out of the face, in its plane
   BorderKind kind;
+  short face;      ///< whose outline it is
   short neighbour; ///< number of the face beyond, -1 where none
 };
 
@@ -33,6 +34,9 @@ struct BorderElement {
 struct FaceBorders {
   std::vector<BorderElement> elements;
   std::vector<int> first; ///< #faces + 1
+
+  std::vector<BorderElement> found; ///< scratch: in the order of the image
+  std::vector<int> next;            ///< scratch: #faces
 };
 
 /** \brief Walks the label image once and says for every pixel side on a face's outline

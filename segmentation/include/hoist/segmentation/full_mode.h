@@ -18,11 +18,10 @@ namespace hoist {
 struct FullModeParameters {
   SensorModel sensor; ///< every distance threshold follows its sigmaZ
 
-  double min_side = 0.015;        ///< shortest side of a reported cuboid [m], > 0
-  double max_side = 5.0;          ///< longest side [m], >= min_side
-  double min_score = 0.5;         ///< cuboids below are not reported, in [0, 1]
-  int max_cuboids = 0;            ///< keep the best n; 0 = all
-  bool allow_single_face = false; ///< report boxes with one visible face too
+  double min_side = 0.015; ///< shortest side of a reported cuboid [m], > 0
+  double max_side = 5.0;   ///< longest side [m], >= min_side
+  double min_score = 0.5;  ///< cuboids below are not reported, in [0, 1]
+  int max_cuboids = 0;     ///< keep the best n; 0 = all
 };
 
 /** \brief All cuboids of a frame from its faces, edges and vertices.

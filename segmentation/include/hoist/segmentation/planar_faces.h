@@ -28,9 +28,9 @@ struct PlanarFace {
   cv::Rect box;                  ///< bounding box in the image
 };
 
-/** \brief How far a point on the face moves along unit vector \a d per pixel in the image,
- *  at the face's centroid [m/px]. Large where the face is foreshortened along \a d: an
- *  edge that is one pixel off is off by as much. */
+/** \brief How far a point on the face moves along unit vector \a d per pixel in the
+ * image, at the face's centroid [m/px]. Large where the face is foreshortened along \a
+ * d: an edge that is one pixel off is off by as much. */
 HOIST_SEGMENTATION_EXPORT double
 footprint(const PlanarFace& face, const Eigen::Vector3d& d, const Intrinsics& camera);
 
@@ -65,9 +65,9 @@ public:
 
   /** \brief How noisy the last frame was, as a factor on the sensor model.
    *
-   * From the flattest windows: the lower quartile of their rms over sigma, times two for
-   * the waves that a window of 16 pixels does not show; within [0.05, 1], so that the
-   * same settings serve perfect synthetic planes and a real sensor. */
+   * From the flattest windows: the lower quartile of their rms over sigma, times two
+   * for the waves that a window of 16 pixels does not show; within [0.05, 1], so that
+   * the same settings serve perfect synthetic planes and a real sensor. */
   double
   noiseScale() const
   {
@@ -95,6 +95,9 @@ private:
   void collectSeeds(int window_width, int window_height);
   bool growFrom(const Seed& seed, int window_width, int window_height);
   void mergeCoplanar();
+  /// Faces narrower than a cell, from what is left.
+  void
+  addSlivers(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask, cv::Mat1s& labels);
   void
   labelPixels(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask, cv::Mat1s& labels);
   void describe(const cv::Mat1f& inverse_depth,
@@ -103,8 +106,7 @@ private:
                 std::vector<PlanarFace>& faces);
   double sigma(double inverse_depth) const;
 
-  void
-  estimateNoise();
+  void estimateNoise();
 
   PlanarFaceParameters parameters_;
   double noise_scale_ = 1;
