@@ -79,6 +79,19 @@ cameraSize(int columns, int rows)
   return {columns, rows};
 }
 
+// The whole number that ends just before `stop`; `stop` moves to its start. Zero for
+// anything else: bad numbers are reported when the line is read.
+std::uint32_t
+digitsBefore(const char* line, const char*& stop)
+{
+  while (stop > line && (isSeparator(stop[-1]) || stop[-1] == '\r'))
+    --stop;
+  std::uint64_t value = 0, place = 1;
+  for (; stop > line && detail::isDigit(stop[-1]) && place < 10000000000; place *= 10)
+    value += place * static_cast<unsigned>(*--stop - '0');
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(value, 0xffffffffu));
+}
+
 } // namespace
 
 struct PTSStream::Impl {
@@ -204,6 +217,10 @@ PTSStream::Impl::countLines()
   };
   const auto u_column = column_of(Column::u), v_column = column_of(Column::v);
   const auto last = std::max(u_column, v_column);
+  // a Bumblebee's pixel stands last: found from the line's end
+  const bool pixel_ends =
+      last + 1 == static_cast<std::ptrdiff_t>(layout.columns.size()) &&
+      std::abs(u_column - v_column) == 1;
   std::uint32_t max_u = 0, max_v = 0;
   const char *begin = nullptr, *stop = nullptr;
   std::size_t line = 0;
@@ -212,7 +229,14 @@ PTSStream::Impl::countLines()
       const char* next = static_cast<const char*>(std::memchr(p, '\n', stop - p)) + 1;
       if (++line > layout.header_lines && isRecord(p)) {
         ++max_records;
-        if (organized) {
+        if (organized && pixel_ends) {
+          const char* tail = next - 1;
+          const std::uint32_t last_value = digitsBefore(p, tail);
+          const std::uint32_t value = digitsBefore(p, tail);
+          max_u = std::max(max_u, u_column > v_column ? last_value : value);
+          max_v = std::max(max_v, u_column > v_column ? value : last_value);
+        }
+        else if (organized) {
           // bad numbers are reported when the line is read
           for (std::ptrdiff_t column = 0; column <= last; ++column) {
             while (isSeparator(*p))
@@ -454,6 +478,9 @@ PTSStream::next(std::vector<std::uint8_t>& block)
     }
     m.at = m.parseLine(m.at);
     ++m.report.records;
+    if (m.organized && (m.record[m.u_slot] >= static_cast<std::uint32_t>(m.width) ||
+                        m.record[m.v_slot] >= static_cast<std::uint32_t>(m.height)))
+      m.fail("a pixel that was not there before: the file changed while it was read");
     float xyz[3];
     std::memcpy(&xyz[0], &m.record[m.x_slot], 4);
     std::memcpy(&xyz[1], &m.record[m.y_slot], 4);

@@ -53,7 +53,7 @@ randomResult(unsigned seed)
   if (r.pose_known) {
     r.pose.linear() =
         Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
-    r.pose.translation() = {1, 2, 3};
+    r.pose.translation() = Eigen::Vector3d(1, 2, 3);
   }
   r.diagnostics.counts.add("edge pixels", 1234);
   r.diagnostics.counts.add("line segments", 56);
@@ -135,7 +135,7 @@ TEST(Json, SchemaIsWhatTheEvaluationReads)
   result.cuboids.push_back(item);
   auto json = nlohmann::json::parse(toJson(result));
   EXPECT_EQ(json.at("scene"), "s");
-  const auto& cuboid = json.at("cuboids").at(0);
+  const auto cuboid = json.at("cuboids").at(0);
   EXPECT_EQ(cuboid.at("center"), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(cuboid.at("size"), (std::vector<double>{0.3, 0.2, 0.1}));
   EXPECT_EQ(cuboid.at("score"), 0.5);
@@ -146,7 +146,7 @@ TEST(Json, SchemaIsWhatTheEvaluationReads)
   EXPECT_TRUE(json.at("pose").is_null());
 
   result.pose_known = true;
-  result.pose.translation() = {10, 0, 0};
+  result.pose.translation() = Eigen::Vector3d(10, 0, 0);
   json = nlohmann::json::parse(toJson(result));
   const auto& world = json.at("cuboids").at(0).at("world");
   EXPECT_EQ(world.at("center"), (std::vector<double>{11, 2, 3}));
