@@ -18,6 +18,15 @@ constexpr int least_cells = 10; // of a crease line
 constexpr int band_reach = 2;   // [cells]; rows on either side that are averaged
 constexpr int band_rows = 2 * band_reach + 1;
 
+// Unlike cv::Mat::setTo it allocates nothing.
+template <typename T>
+void
+fillZero(cv::Mat_<T>& image)
+{
+  for (int v = 0; v < image.rows; ++v)
+    std::fill(image[v], image[v] + image.cols, T(0));
+}
+
 } // namespace
 
 void
@@ -133,7 +142,7 @@ CreaseFinder::findKinks(const cv::Mat1f& cells,
   const float to_focal = static_cast<float>(parameters.focal / factor_);
   const float tan_angle = static_cast<float>(std::tan(parameters.angle));
   kinks.create(cells.size());
-  kinks.setTo(0);
+  fillZero(kinks);
   band_.resize(static_cast<std::size_t>(cols));
   prefix_.resize(static_cast<std::size_t>(cols) + 1);
   reach_.resize(static_cast<std::size_t>(cols) + 1);
@@ -226,11 +235,28 @@ CreaseFinder::kinksOfWindow(int begin,
                             const InverseDepthNoise& noise,
                             float* out) const
 {
-  const float scale = windows_[d].gain * windows_[d].per_sigma;
+  // Local copies: stores through `out` could change the members as far as the compiler
+  // knows, and it would not vectorize.
+  const Window window = windows_[d];
+  const float outer = 0.5F * window.per_outer * window.gain * window.per_sigma;
+  const float middle = window.per_middle * window.gain * window.per_sigma;
   const float a = noise.a, b = noise.b, c = noise.c;
-  const float* band = band_.data();
-  for (int u = begin; u < end; ++u)
-    out[u] = blocksAt(u, d).kink * scale / (a + band[u] * (b + band[u] * c));
+  const float* band = band_.data() + begin;
+  const std::uint32_t* at = prefix_.data() + begin;
+  const std::uint32_t* left = at - d;
+  const std::uint32_t* left_end = left + window.block;
+  const std::uint32_t* right_end = at + d + 1;
+  const std::uint32_t* right = right_end - window.block;
+  const std::uint32_t* centre = at - window.middle;
+  const std::uint32_t* centre_end = at + window.middle + 1;
+  out += begin;
+  for (int u = 0; u < end - begin; ++u) {
+    const float at_ends = static_cast<float>(
+        static_cast<int>(left_end[u] - left[u] + right_end[u] - right[u]));
+    const float at_centre =
+        static_cast<float>(static_cast<int>(centre_end[u] - centre[u]));
+    out[u] = (at_ends * outer - at_centre * middle) / (a + band[u] * (b + band[u] * c));
+  }
 }
 
 void
@@ -239,7 +265,7 @@ CreaseFinder::findPeaks()
   const int rows = cells_.rows, cols = cells_.cols;
   peaks_.create(cells_.size());
   position_.create(cells_.size());
-  peaks_.setTo(0);
+  fillZero(peaks_);
 
   // Is the value at p the largest of its sign among its neighbours along the line?
   const auto isPeak = [](const float* p, std::ptrdiff_t stride, int before, int after) {

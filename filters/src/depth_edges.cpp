@@ -123,9 +123,18 @@ DepthEdges::detect(const cv::Mat1f& inverse_depth,
     for (int v = 0; v < labels.rows; ++v) {
       const unsigned char* step = steps_[v];
       unsigned char* label = labels[v];
-      for (int u = 0; u < labels.cols; ++u)
-        label[u] = static_cast<unsigned char>(
-            label[u] | (step[u] == step_near ? EDGE_OCCLUSION : EDGE_NONE));
+      int u = 0;
+      for (; u + 8 <= labels.cols; u += 8) { // eight pixels in one word
+        std::uint64_t s = 0, l = 0;
+        std::memcpy(&s, step + u, 8);
+        std::memcpy(&l, label + u, 8);
+        const std::uint64_t only_near = s & ~(s >> 1) & 0x0101010101010101ULL;
+        l |= only_near * EDGE_OCCLUSION; // no carry: bytes are 0 or 1
+        std::memcpy(label + u, &l, 8);
+      }
+      for (; u < labels.cols; ++u)
+        if (step[u] == step_near)
+          label[u] |= EDGE_OCCLUSION;
     }
   if ((kinds & EDGE_CREASE) != 0 && intrinsics.valid())
     creases_.find(inverse_depth,
@@ -142,7 +151,10 @@ void
 DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
 {
   const int rows = w.rows, cols = w.cols;
-  const int max_gap = parameters.max_gap > 0 ? parameters.max_gap : cols / 10;
+  const int max_gap =
+      std::max(1, parameters.max_gap > 0 ? parameters.max_gap : cols / 10);
+  // a void is looked at some pixels behind its border, which may be ragged
+  const int deep = std::min(4, max_gap);
   const InverseDepthNoise noise(parameters.sensor);
   const float sigmas = static_cast<float>(parameters.step_sigmas);
   const float a = noise.a * sigmas * 1.41421F, b = noise.b * sigmas * 1.41421F,
@@ -154,7 +166,8 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
         static_cast<int>((p > 0) != (q > 0)));
   };
   steps_.create(w.size());
-  steps_.setTo(0);
+  for (int v = 0; v < rows; ++v) // setTo would allocate
+    std::fill(steps_[v], steps_[v] + cols, static_cast<unsigned char>(0));
   const int stride = static_cast<int>(w.step1());
 
   // The gap from p to q, both measured, of a line; mark(i, flags) sets them. `wide(i)`
@@ -163,7 +176,7 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
   const auto settle =
       [&](const Line& line, int p, int q, const auto& mark, const auto& wide) {
         if (q - p > max_gap) {
-          const bool ends_p = wide(p + 1), ends_q = wide(q - 1);
+          const bool ends_p = wide(p + deep), ends_q = wide(q - deep);
           if (ends_p)
             mark(p, step_near);
           if (ends_q)
@@ -215,10 +228,11 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
         return;
       if (last >= 0)
         settle(line, last, u + 1, mark, wide);
-      else if (u + 1 > max_gap && wide(u))
+      else if (u + 1 > max_gap && wide(u + 1 - deep))
         mark(u + 1, step_near);
     });
-    if (row[cols - 1] <= 0 && last >= 0 && cols - 1 - last > max_gap && wide(last + 1))
+    if (row[cols - 1] <= 0 && last >= 0 && cols - 1 - last > max_gap &&
+        wide(last + deep))
       mark(last, step_near);
   }
   last_.assign(static_cast<std::size_t>(cols), -1);
@@ -241,13 +255,13 @@ DepthEdges::findSteps(const cv::Mat1f& w, const DepthEdgeParameters& parameters)
       const auto wide = [&](int i) { return isLonger({w[i], 1, cols}, u, max_gap); };
       if (last_[u] >= 0)
         settle({w[0] + u, stride, rows}, last_[u], v + 1, mark, wide);
-      else if (v + 1 > max_gap && wide(v))
+      else if (v + 1 > max_gap && wide(v + 1 - deep))
         mark(v + 1, step_near);
     });
   }
   for (int u = 0; u < cols; ++u)
     if (w(rows - 1, u) <= 0 && last_[u] >= 0 && rows - 1 - last_[u] > max_gap &&
-        isLonger({w[last_[u] + 1], 1, cols}, u, max_gap))
+        isLonger({w[last_[u] + deep], 1, cols}, u, max_gap))
       steps_(last_[u], u) |= step_near;
 }
 
