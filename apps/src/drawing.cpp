@@ -52,6 +52,12 @@ drawHaloLine(cv::Mat3b& image,
 }
 
 void
+drawThinLine(cv::Mat3b& image, cv::Point2f p, cv::Point2f q, const cv::Scalar& color)
+{
+  cv::line(image, fixed(p), fixed(q), color, 1, cv::LINE_AA, fraction_bits);
+}
+
+void
 drawDashedLine(cv::Mat3b& image,
                cv::Point2f p,
                cv::Point2f q,

@@ -14,6 +14,10 @@ void drawHaloLine(cv::Mat3b& image,
                   const cv::Scalar& color,
                   int thickness);
 
+/** \brief A line of one pixel, for what must not cover the picture. */
+void
+drawThinLine(cv::Mat3b& image, cv::Point2f p, cv::Point2f q, const cv::Scalar& color);
+
 /** \brief A dashed line; dashes and gaps are \a dash pixels long. */
 void drawDashedLine(cv::Mat3b& image,
                     cv::Point2f p,

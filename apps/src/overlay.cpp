@@ -306,7 +306,7 @@ drawOverlay(const OverlayContents& contents)
     return cv::Point2f(scale * (pixel.x() + 0.5f), scale * (pixel.y() + 0.5f));
   };
   for (const LineSegment& s : contents.segments)
-    drawHaloLine(image, at(s.pixels[0]), at(s.pixels[1]), segment_color, 1);
+    drawThinLine(image, at(s.pixels[0]), at(s.pixels[1]), segment_color);
   for (const Vertex& v : contents.vertices)
     if (v.point.z() > 0 && images.intrinsics.valid())
       cv::circle(image,

@@ -140,9 +140,11 @@ colorName(const std::array<double, 3>& lab)
   if (hue < 0)
     hue += 360.0;
 
-  // What is nearly white, nearly black or nearly without hue.
-  if (chroma < 10.0 || (lightness > 90.0 && chroma < 20.0) ||
-      (lightness < 15.0 && chroma < 20.0)) {
+  // What is nearly white, nearly black or nearly without hue. Shade takes chroma away
+  // together with lightness, so the dark need less of it.
+  const double least_chroma = std::min(10.0, 1.0 + 0.25 * lightness);
+  if (chroma < least_chroma || (lightness > 90.0 && chroma < 20.0) ||
+      (lightness < 10.0 && chroma < 20.0)) {
     if (lightness > 86.0)
       return "white";
     return lightness < 22.0 ? "black" : "grey";

@@ -106,6 +106,18 @@ TEST(Color, AgreesWithMostOfCss)
   EXPECT_GE(agreed, all * 85 / 100) << agreed << " of " << all;
 }
 
+// A face in the shade: the same surface with less light keeps its name.
+TEST(Color, ShadeDoesNotTakeTheNameOfCardboard)
+{
+  for (const double light : {1.0, 0.8, 0.6, 0.45})
+    EXPECT_EQ(
+        hoist::colorName(hoist::labFromRgb({static_cast<unsigned char>(190 * light),
+                                            static_cast<unsigned char>(150 * light),
+                                            static_cast<unsigned char>(105 * light)})),
+        "brown")
+        << light;
+}
+
 TEST(Color, EveryColourHasOneOfTheElevenNames)
 {
   const std::array<const char*, 11> names = {"black",
