@@ -30,6 +30,7 @@ struct OutlinePoint {
   Eigen::Vector3d point; // [m]
   int end;               // of the box, lower 0, upper 0, lower 1, ...
   double sigma;          // along the end's axis [m]
+  double start_sigma;    // the same while the ends are still rough [m]
 };
 
 // Tukey's biweight of a residual in units of sigma, zero beyond c.
@@ -156,7 +157,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
       }
       if (end < 0)
         continue;
-      OutlinePoint point{e.point.cast<double>(), end, lateral_noise * step[end / 2]};
+      const double lateral = lateral_noise * step[end / 2];
+      OutlinePoint point{e.point.cast<double>(), end, lateral, lateral};
       // Where the box stands on something, the two planes say better than the pixels
       // where the face ends.
       const Eigen::Vector3d axis = h.axes.col(end / 2) * (end % 2 == 0 ? -1.0 : 1.0);
@@ -184,7 +186,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
   const Vector9 start = ends;
   Eigen::Matrix3d axes = h.axes;
   Matrix9 normal;
-  constexpr int iterations = 5;
+  constexpr int iterations = 6, rough_iterations = 3;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     normal.setZero();
     Vector9 gradient = Vector9::Zero();
@@ -209,7 +211,11 @@ refineCuboid(CuboidHypothesis& hypothesis,
     for (const FacePixel& p : pixels)
       addResidual(p.point, p.face, p.sigma, share / face_correlation, 4.7);
     for (const OutlinePoint& p : outline)
-      addResidual(p.point, p.end, p.sigma, 1 / border_correlation, 3.0);
+      addResidual(p.point,
+                  p.end,
+                  iteration < rough_iterations ? p.start_sigma : p.sigma,
+                  1 / border_correlation,
+                  3.0);
     // what nothing measures stays where the hypothesis put it
     for (int f = 0; f < 6; ++f) {
       // an end on a support is as good as the support's plane
@@ -227,7 +233,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
       axes =
           Eigen::AngleAxisd(angle, delta.head<3>() / angle).toRotationMatrix() * axes;
     ends.tail<6>() += delta.tail<6>();
-    if (delta.norm() < 1e-6)
+    if (iteration >= rough_iterations && delta.norm() < 1e-6)
       break;
   }
   // clean up rounding
