@@ -2,7 +2,7 @@
 #
 # One library of the suite: hoist_<module>, alias and exported as hoist::<module>,
 # hidden visibility with a generated hoist/<module>/export.h, installed headers and a
-# hoist_<module>.pc whose Requires: are the PKGCONFIG names.
+# relocatable hoist_<module>.pc whose Requires: are the PKGCONFIG names.
 include(GenerateExportHeader)
 include(CMakePackageConfigHelpers)
 
@@ -30,7 +30,8 @@ function(hoist_add_module module)
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     CXX_VISIBILITY_PRESET hidden
-    VISIBILITY_INLINES_HIDDEN ON)
+    VISIBILITY_INLINES_HIDDEN ON
+    INSTALL_RPATH "$ORIGIN") # its sisters, wherever the tree is installed
   generate_export_header(${target}
     BASE_NAME hoist_${module}
     EXPORT_FILE_NAME ${CMAKE_CURRENT_BINARY_DIR}/include/hoist/${module}/export.h)
@@ -49,6 +50,11 @@ function(hoist_add_module module)
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
   set(HOIST_PC_MODULE ${module})
+  # opencv4.pc links every module of OpenCV, VTK's among them: only its headers are
+  # taken (Requires.private), and the one library that the headers need
+  list(REMOVE_ITEM ARG_PKGCONFIG opencv4)
+  file(RELATIVE_PATH HOIST_PC_TO_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
+       ${CMAKE_INSTALL_PREFIX})
   list(JOIN ARG_PKGCONFIG " " HOIST_PC_REQUIRES)
   configure_file(${PROJECT_SOURCE_DIR}/.cmake/hoist.pc.in
                  ${CMAKE_CURRENT_BINARY_DIR}/hoist_${module}.pc @ONLY)

@@ -31,16 +31,15 @@ cmake --build "$work/build"
 echo "pkg-config"
 libdir=$(dirname "$(find "$prefix" -name libhoist_data.so)")
 export PKG_CONFIG_PATH=$libdir/pkgconfig
-# prefix as installed here, not as configured
-read -r -a flags <<<"$(pkg-config --define-variable=prefix="$prefix" --cflags --libs hoist_recognition)"
-c++ -std=c++17 -O1 "$source/consumer/main.cpp" "${flags[@]}" -lpcl_common \
+read -r -a flags <<<"$(pkg-config --cflags --libs hoist_recognition)"
+c++ -std=c++17 -O1 "$source/consumer/main.cpp" "${flags[@]}" \
   -Wl,-rpath,"$libdir" -o "$work/consumer"
 "$work/consumer"
 
 echo "all four libraries have a .pc file"
 for module in data filters segmentation recognition; do
-  pkg-config --define-variable=prefix="$prefix" --exists "hoist_$module"
+  pkg-config --exists "hoist_$module"
 done
 
 echo "the programs run from where they are installed"
-LD_LIBRARY_PATH=$libdir "$prefix/bin/hoist" --version
+"$prefix/bin/hoist" --version
