@@ -37,10 +37,21 @@ struct CuboidEvidence {
   std::vector<EdgeEvidence> edges;   ///< the outline
   double flat = 0;          ///< share of the uncovered area that lies on the faces
   double outline = 0;       ///< share of the outline where the surface ends
-  double worst_edge = 0;    ///< the same of the worst edge
   double score = 0;         ///< in [0, 1]
   int stride = 1;           ///< one pixel in stride x stride was looked at
   std::vector<int> support; ///< supporting pixels, indices into the frame
+
+  /// Nothing said; the vectors keep their memory.
+  void
+  clear()
+  {
+    faces = {};
+    visible = {};
+    edges.clear();
+    support.clear();
+    flat = outline = score = 0;
+    stride = 1;
+  }
 
   int
   supported() const

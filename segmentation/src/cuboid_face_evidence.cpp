@@ -1,0 +1,133 @@
+#include "cuboid_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hoist {
+namespace detail {
+namespace {
+
+// A face is judged patch by patch: single pixels are noisy, the mean of a patch is not.
+constexpr int patches = 6; // along either side
+
+struct Patch {
+  int support = 0, occluded = 0, contradiction = 0, missing = 0;
+  double sum = 0; // of the supporting residuals, along the normal [m]
+};
+
+using PatchGrid = std::array<Patch, static_cast<std::size_t>(patches) * patches>;
+
+// Share of the uncovered patches whose mean lies on the face.
+double
+flatShare(const PatchGrid& grid, double noise, double tolerance)
+{
+  double good = 0, bad = 0;
+  for (const Patch& p : grid) {
+    const int open = p.support + p.contradiction + p.missing;
+    if (open < 2 || p.occluded > open)
+      continue;
+    // nothing measured is weak evidence against, seen through is strong
+    const double weight = p.support + p.contradiction + 0.5 * p.missing;
+    const double limit = tolerance + 2 * noise / std::sqrt(std::max(1, p.support));
+    if (p.support > p.contradiction + p.missing && std::abs(p.sum / p.support) < limit)
+      good += weight;
+    else
+      bad += weight;
+  }
+  return good + bad > 0 ? good / (good + bad) : 0;
+}
+
+} // namespace
+
+void
+collectFaceEvidence(const CuboidView& view,
+                    const cv::Mat1f& image,
+                    int max_samples,
+                    CuboidEvidence& evidence)
+{
+  const CuboidHypothesis& h = view.box;
+  const double area = (view.right - view.left + 1.0) * (view.bottom - view.top + 1.0);
+  const int stride =
+      std::max(1, static_cast<int>(std::lround(std::sqrt(area / max_samples))));
+  evidence.stride = stride;
+
+  std::array<PatchGrid, 3> grids{}; // of the visible faces, in the order of front
+  std::array<double, 3> lateral_square{};
+  for (int k = 0; k < view.fronts; ++k) {
+    // a pixel of lateral error shifts an oblique face in depth
+    const PixelPlane& p = view.planes[view.front[k]];
+    lateral_square[k] = p.a * p.a + p.b * p.b;
+  }
+  const Eigen::Vector3d cell = h.size().cwiseInverse() * patches;
+  // rays in the box's axes change by a constant from pixel to pixel
+  const Eigen::Vector3d ray_step = h.axes.row(0).transpose() / view.camera.fx;
+  for (int v = view.top; v <= view.bottom; v += stride) {
+    const float* row = image[v];
+    const Eigen::Vector3d ray0 = h.axes.transpose() * view.camera.ray(0, v);
+    for (int u = view.left; u <= view.right; u += stride) {
+      // Inverse depth falls along a ray: the box is entered at the smallest of the
+      // visible planes and left at the largest of the hidden ones.
+      double enter = std::numeric_limits<double>::max();
+      int k = 0;
+      for (int i = 0; i < view.fronts; ++i) {
+        const double w = view.planes[view.front[i]].at(u, v);
+        if (w < enter) {
+          enter = w;
+          k = i;
+        }
+      }
+      bool inside = enter > 0;
+      for (int i = 0; i < view.n_hidden && inside; ++i)
+        inside = view.planes[view.hidden[i]].at(u, v) < enter;
+      if (!inside)
+        continue;
+      const double z = 1 / enter;
+      const int f = view.front[k];
+      const int axis = f / 2, p = (axis + 1) % 3, q = (axis + 2) % 3;
+      const Eigen::Vector3d ray = ray0 + ray_step * u;
+      const auto index = [&](int i) {
+        const auto t = static_cast<int>((ray[i] * z - h.lower[i]) * cell[i]);
+        return std::min(patches - 1, std::max(0, t));
+      };
+      Patch& patch = grids[k][index(p) * patches + index(q)];
+      FaceEvidence& e = evidence.faces[f];
+      const float w = row[u];
+      if (!(w > 0)) {
+        ++e.missing;
+        ++patch.missing;
+        continue;
+      }
+      const double noise = view.sensor.sigmaZ(z) * enter * enter;
+      const double r = w - enter;
+      constexpr double gate = 3.5;
+      const bool near = r * r <= gate * gate * (noise * noise + lateral_square[k]);
+      if (near) {
+        ++e.support;
+        ++patch.support;
+        patch.sum += ray[axis] / w - view.end(f);
+        evidence.support.push_back(v * image.cols + u);
+      }
+      else if (r > 0) {
+        ++e.occluded;
+        ++patch.occluded;
+      }
+      else {
+        ++e.contradiction;
+        ++patch.contradiction;
+      }
+    }
+  }
+  const double noise = view.sensor.sigmaZ(h.center().z());
+  const Eigen::Vector3d size = h.size();
+  for (int k = 0; k < view.fronts; ++k) {
+    const int axis = view.front[k] / 2;
+    const double shorter = std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+    // real cartons bulge: a few per cent of the side
+    const double tolerance = 0.03 * shorter + 0.5 * noise;
+    evidence.faces[view.front[k]].flat = flatShare(grids[k], noise, tolerance);
+  }
+}
+
+} // namespace detail
+} // namespace hoist
