@@ -41,6 +41,51 @@ weight(double r, double c)
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
+// Weighted sums over the residuals a . x - end of one box face, from which its share of
+// the normal equations follows: cheaper than nine by nine products for each pixel.
+struct Sums {
+  Eigen::Matrix3d xx = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  Eigen::Vector3d xr = Eigen::Vector3d::Zero();
+  double one = 0, r = 0;
+
+  // n: how many measurements it counts for; cut: where the robust weight ends
+  void
+  add(const Eigen::Vector3d& a,
+      double end,
+      const Eigen::Vector3d& point,
+      double sigma,
+      double n,
+      double cut)
+  {
+    const double residual = a.dot(point) - end;
+    const double w = weight(residual / sigma, cut) * n / (sigma * sigma);
+    if (w == 0)
+      return;
+    const Eigen::Vector3d wx = w * point;
+    xx += wx * point.transpose();
+    x += wx;
+    xr += wx * residual;
+    one += w;
+    r += w * residual;
+  }
+
+  // d(a . x) for a turn omega is omega . (a x x); for the end it is -1.
+  void
+  addTo(Matrix9& normal, Vector9& gradient, const Eigen::Vector3d& a, int f) const
+  {
+    Eigen::Matrix3d cross;
+    cross << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    normal.topLeftCorner<3, 3>() += cross * xx * cross.transpose();
+    const Eigen::Vector3d turn = cross * x;
+    normal.block<3, 1>(0, 3 + f) -= turn;
+    normal.block<1, 3>(3 + f, 0) -= turn.transpose();
+    normal(3 + f, 3 + f) += one;
+    gradient.head<3>() += cross * xr;
+    gradient[3 + f] -= r;
+  }
+};
+
 double
 endOf(const CuboidHypothesis& h, int f)
 {
@@ -186,36 +231,29 @@ refineCuboid(CuboidHypothesis& hypothesis,
   const Vector9 start = ends;
   Eigen::Matrix3d axes = h.axes;
   Matrix9 normal;
+  std::array<Sums, 6> sums;
   constexpr int iterations = 6, rough_iterations = 3;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     normal.setZero();
     Vector9 gradient = Vector9::Zero();
-    const auto addResidual =
-        [&](const Eigen::Vector3d& p, int f, double sigma, double n, double cut) {
-          const Eigen::Vector3d x = p - origin;
-          const Eigen::Vector3d a = axes.col(f / 2);
-          const double r = (a.dot(x) - ends[3 + f]) / sigma;
-          const double w = weight(r, cut) * n;
-          if (w == 0)
-            return;
-          // d(a . x) for a turn omega is omega . (a x x)
-          const Eigen::Vector3d turn = a.cross(x) / sigma;
-          const double step_end = -1 / sigma;
-          normal.topLeftCorner<3, 3>() += w * turn * turn.transpose();
-          normal.block<3, 1>(0, 3 + f) += w * turn * step_end;
-          normal.block<1, 3>(3 + f, 0) += w * turn.transpose() * step_end;
-          normal(3 + f, 3 + f) += w * step_end * step_end;
-          gradient.head<3>() += w * turn * r;
-          gradient[3 + f] += w * step_end * r;
-        };
+    for (Sums& sum : sums)
+      sum = Sums();
     for (const FacePixel& p : pixels)
-      addResidual(p.point, p.face, p.sigma, share / face_correlation, 4.7);
+      sums[p.face].add(axes.col(p.face / 2),
+                       ends[3 + p.face],
+                       p.point - origin,
+                       p.sigma,
+                       share / face_correlation,
+                       4.7);
     for (const OutlinePoint& p : outline)
-      addResidual(p.point,
-                  p.end,
-                  iteration < rough_iterations ? p.start_sigma : p.sigma,
-                  1 / border_correlation,
-                  3.0);
+      sums[p.end].add(axes.col(p.end / 2),
+                      ends[3 + p.end],
+                      p.point - origin,
+                      iteration < rough_iterations ? p.start_sigma : p.sigma,
+                      1 / border_correlation,
+                      3.0);
+    for (int f = 0; f < 6; ++f)
+      sums[f].addTo(normal, gradient, axes.col(f / 2), f);
     // what nothing measures stays where the hypothesis put it
     for (int f = 0; f < 6; ++f) {
       // an end on a support is as good as the support's plane

@@ -26,6 +26,16 @@ volumeShare(const CuboidHypothesis& a, const CuboidHypothesis& b)
 
 } // namespace
 
+bool
+excludeEachOther(const CuboidHypothesis& a, const CuboidHypothesis& b)
+{
+  const double reach = a.size().norm() + b.size().norm();
+  if ((a.center() - b.center()).norm() > reach / 2)
+    return false;
+  constexpr double max_share = 0.25;
+  return volumeShare(a, b) > max_share || volumeShare(b, a) > max_share;
+}
+
 void
 selectCuboids(const std::vector<CuboidCandidate>& candidates,
               double min_score,
@@ -44,20 +54,15 @@ selectCuboids(const std::vector<CuboidCandidate>& candidates,
     return value[a] > value[b] || (value[a] == value[b] && a < b);
   });
 
-  const auto conflict = [&](int a, int b) {
-    const auto &ca = candidates[a], &cb = candidates[b];
-    const double reach = ca.hypothesis.size().norm() + cb.hypothesis.size().norm();
-    if ((ca.hypothesis.center() - cb.hypothesis.center()).norm() > reach / 2)
-      return false;
-    constexpr double max_share = 0.25;
-    return volumeShare(ca.hypothesis, cb.hypothesis) > max_share ||
-           volumeShare(cb.hypothesis, ca.hypothesis) > max_share;
-  };
   const std::size_t n = order.size();
   std::vector<char> clash(n * n, 0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j)
-      clash[i * n + j] = clash[j * n + i] = conflict(order[i], order[j]) ? 1 : 0;
+      clash[i * n + j] = clash[j * n + i] =
+          excludeEachOther(candidates[order[i]].hypothesis,
+                           candidates[order[j]].hypothesis)
+              ? 1
+              : 0;
 
   std::vector<char> in(n, 0);
   for (std::size_t i = 0; i < n; ++i) {

@@ -54,7 +54,7 @@ struct Walker {
       if (label != 0) {
         const int other = label - 1;
         if (other == face)
-          return {BorderKind::cut, static_cast<short>(face)}; // a hole, no border
+          return {BorderKind::cut, static_cast<short>(face)};
         // across a gap the other surface is carried back to the border
         const double there = k <= max_fringe + 1 ? plane(other, su, sv) : w;
         const double here = k <= max_fringe + 1 ? own : plane(face, x, y);
@@ -119,6 +119,8 @@ findFaceBorders(const cv::Mat1s& labels,
           continue;
         const int face = label - 1;
         const Beyond beyond = walker.look(face, u, v, s[0], s[1]);
+        if (beyond.neighbour == face)
+          continue; // a hole, no border
         const double x = u + 0.5 * s[0], y = v + 0.5 * s[1];
         const Eigen::Vector3d p = camera.ray(x, y) / walker.plane(face, x, y);
         const double x2 = x + s[0], y2 = y + s[1];

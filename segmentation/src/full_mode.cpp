@@ -67,6 +67,20 @@ toCuboid(const CuboidCandidate& candidate)
   return c;
 }
 
+// Supporting pixels, sampled or not.
+double
+pixels(const CuboidEvidence& e)
+{
+  return static_cast<double>(e.supported()) * e.stride * e.stride;
+}
+
+// What selectCuboids() weighs.
+double
+value(const CuboidEvidence& e)
+{
+  return e.score * pixels(e);
+}
+
 // Boxes that differ by less than refinement moves them, whatever their axes are called,
 // and whose ends are known alike.
 bool
@@ -166,8 +180,8 @@ FullMode::segment(const FrameImages& images,
   }
   std::sort(w.order.begin(), w.order.end(), [&](int a, int b) {
     const CuboidEvidence &ea = w.candidates[a].evidence, &eb = w.candidates[b].evidence;
-    const double va = ea.flat * ea.outline * ea.supported() * ea.stride * ea.stride;
-    const double vb = eb.flat * eb.outline * eb.supported() * eb.stride * eb.stride;
+    const double va = ea.flat * ea.outline * pixels(ea);
+    const double vb = eb.flat * eb.outline * pixels(eb);
     return va > vb || (va == vb && a < b);
   });
   w.done.clear();
@@ -177,6 +191,17 @@ FullMode::segment(const FrameImages& images,
     if (std::any_of(w.done.begin(), w.done.end(), same)) {
       c.evidence.score = 0;
       diagnostics.rejected.add("the same as another");
+      continue;
+    }
+    // It shares its room with a box that explains more than it ever could.
+    const auto beaten = [&](int k) {
+      const CuboidCandidate& other = w.candidates[k];
+      return value(other.evidence) > pixels(c.evidence) &&
+             excludeEachOther(other.hypothesis, c.hypothesis);
+    };
+    if (std::any_of(w.done.begin(), w.done.end(), beaten)) {
+      c.evidence.score = 0;
+      diagnostics.rejected.add("another explains more there");
       continue;
     }
     w.done.push_back(i);

@@ -15,13 +15,16 @@ struct CuboidCandidate {
   bool refined = false;
 };
 
+/** \brief Whether two boxes share more than a quarter of either one's volume. */
+HOIST_SEGMENTATION_EXPORT bool excludeEachOther(const CuboidHypothesis& a,
+                                                const CuboidHypothesis& b);
+
 /** \brief Chooses the set of candidates that explains the most of the frame without
  *  explaining anything twice.
  *
  * Value of a set: the supported pixels of its members, each weighted by its member's
- * score. Two members exclude each other if they share more than a quarter of the
- * smaller one's pixels or of its volume. Greedy by value, then single exchanges until
- * none helps.
+ * score; see excludeEachOther(). Greedy by value, then single exchanges until none
+ * helps.
  *
  * \param chosen out: indices into candidates, best score first
  */
