@@ -1,5 +1,6 @@
 // Files that are damaged or made to do harm: each ends in a LoadError that names it.
 // All cases on which PCL 1.13's reader crashes, hangs, or invents points are here.
+#include "support/sanitizers.h"
 #include "temp_folder.h"
 
 #include <hoist/data/load_frame.h>
@@ -265,7 +266,8 @@ TEST_P(HostileFiles, EndInAnErrorThatNamesFileAndCause)
     for (const char c : what)
       EXPECT_GE(static_cast<unsigned char>(c), 32) << "control characters in " << what;
   }
-  EXPECT_LT(peakKiB() - before, 64 * 1024);
+  if (hoist::test::memory_is_measurable)
+    EXPECT_LT(peakKiB() - before, 64 * 1024);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
@@ -384,7 +386,8 @@ TEST(HostileFiles, RandomMutations)
   }
   EXPECT_GT(read, 100u); // both happen, or the test tests nothing
   EXPECT_GT(refused, 100u);
-  EXPECT_LT(peakKiB() - before, 256 * 1024);
+  if (hoist::test::memory_is_measurable)
+    EXPECT_LT(peakKiB() - before, 256 * 1024);
 }
 
 } // namespace

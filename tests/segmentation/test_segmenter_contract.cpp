@@ -167,11 +167,10 @@ TYPED_TEST(SegmenterContract, WithoutInputItFailsAndClears)
 
 TYPED_TEST(SegmenterContract, FramesWithoutPointsGiveNothing)
 {
-  using Point = typename TestFixture::Point;
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  Point hole;
+  typename TestFixture::Point hole;
   hole.x = hole.y = hole.z = nan;
-  Point point;
+  typename TestFixture::Point point;
   point.x = point.y = 0;
   point.z = 1;
   const std::vector<typename TestFixture::Cloud> clouds = {
