@@ -365,8 +365,9 @@ PTSStream::Impl::parseLine(const char* p)
         after = detail::parseReal(p, wide);
         const float scaled = report.unit_colors ? wide * 255.0f : wide;
         // a colour that is no number is black
-        value = scaled > 0 ? static_cast<std::uint32_t>(std::min(scaled, 255.0f) + 0.5f)
-                           : 0;
+        value = scaled > 0
+                    ? static_cast<std::uint32_t>(std::lround(std::min(scaled, 255.0f)))
+                    : 0;
       }
       p = after;
       value = std::min(value, 255u);

@@ -59,7 +59,8 @@ toDouble(NumberType type, const std::uint8_t* bytes)
 std::uint32_t
 toByte(double value)
 {
-  return value > 0 ? static_cast<std::uint32_t>(std::min(value, 255.0) + 0.5) : 0;
+  return value > 0 ? static_cast<std::uint32_t>(std::lround(std::min(value, 255.0)))
+                   : 0;
 }
 
 // A pixel number that no image has, for what is no pixel number.

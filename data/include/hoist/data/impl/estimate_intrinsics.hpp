@@ -50,8 +50,9 @@ estimateIntrinsics(const pcl::PointCloud<PointT>& cloud, int max_records)
       continue;
     double u = 0, v = 0;
     if (organized) {
-      u = static_cast<double>(i % cloud.width);
-      v = static_cast<double>(i / cloud.width);
+      const std::size_t column = i % cloud.width, row = i / cloud.width;
+      u = static_cast<double>(column);
+      v = static_cast<double>(row);
     }
     else if constexpr (detail::HasPixel<PointT>::value) {
       u = p.u;
