@@ -225,9 +225,18 @@ FullMode::segment(const FrameImages& images,
     if (parameters.max_cuboids > 0 &&
         static_cast<int>(cuboids.size()) >= parameters.max_cuboids)
       break;
-    verify(w.candidates[i], std::numeric_limits<int>::max()); // every supporting pixel
-    cuboids.push_back(toCuboid(w.candidates[i]));
+    // every supporting pixel, and the score of all pixels instead of a sample
+    CuboidCandidate& c = w.candidates[i];
+    verify(c, std::numeric_limits<int>::max());
+    if (c.evidence.score < parameters.min_score) {
+      diagnostics.rejected.add("score below the minimum");
+      continue;
+    }
+    cuboids.push_back(toCuboid(c));
   }
+  std::stable_sort(cuboids.begin(),
+                   cuboids.end(),
+                   [](const Cuboid& a, const Cuboid& b) { return a.score > b.score; });
   diagnostics.counts.add("cuboids", cuboids.size());
   return true;
 }
