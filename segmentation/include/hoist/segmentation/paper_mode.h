@@ -29,13 +29,13 @@ struct PaperModeParameters {
   /// whole schedule and keeps the best cuboid of each box.
   bool stop_when_satisfied = true;
 
-  HoughParameters hough;           ///< 4.2.2
-  int end_search_radius = 0;       ///< for an end pixel without a point [px], >= 0
-  double min_length = 0;           ///< shortest segment [m], >= 0
+  HoughParameters hough;            ///< 4.2.2
+  int end_search_radius = 0;        ///< for an end pixel without a point [px], >= 0
+  double min_length = 0;            ///< shortest segment [m], >= 0
   double distance_threshold = 0.03; ///< D of 4.2.3 [m], >= 0
-  double tolerance = 0.05;         ///< equation 3, >= 0; a cosine if normalized
-  bool normalized = true;          ///< unit vectors in equation 3, or raw [m^2]
-  int max_degree = 64;             ///< segments of a vertex that is searched, >= 3
+  double tolerance = 0.05;          ///< equation 3, >= 0; a cosine if normalized
+  bool normalized = true;           ///< unit vectors in equation 3, or raw [m^2]
+  int max_degree = 64;              ///< segments of a vertex that is searched, >= 3
 
   /** \brief Every number in its range (Canny's are checked by Canny). */
   HOIST_SEGMENTATION_EXPORT bool valid() const;
