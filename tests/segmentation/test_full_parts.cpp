@@ -1,0 +1,531 @@
+// The steps of the full mode one by one, on scenes whose answer is known: outlines,
+// verification, refinement, selection.
+#include <hoist/segmentation/cuboid_refinement.h>
+#include <hoist/segmentation/cuboid_selection.h>
+#include <hoist/segmentation/cuboid_verification.h>
+#include <hoist/segmentation/face_borders.h>
+
+#include "test_full_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace hoist {
+namespace {
+
+// Faces and outlines of a frame, as the full mode makes them.
+struct Prepared {
+  test::ExactFrame frame;
+  cv::Mat1s labels;
+  std::vector<PlanarFace> faces;
+  FaceBorders borders;
+  SensorModel sensor; // scaled to the frame's noise
+
+  explicit Prepared(const samples::Scene& scene,
+                    double noise = 0,
+                    std::uint64_t seed = 0)
+  : frame(test::exactFrame(scene, noise, seed))
+  {
+    PlanarFaceFinder finder;
+    finder.find(
+        frame.images.inverse_depth, {}, frame.images.intrinsics, {}, labels, faces);
+    sensor.scale = finder.noiseScale();
+    findFaceBorders(labels,
+                    frame.images.inverse_depth,
+                    {},
+                    frame.images.intrinsics,
+                    sensor,
+                    faces,
+                    borders);
+  }
+
+  // True object and face that most pixels of a found face show.
+  std::pair<int, int>
+  shows(int face) const
+  {
+    std::map<std::pair<int, int>, int> votes;
+    for (int v = 0; v < labels.rows; ++v)
+      for (int u = 0; u < labels.cols; ++u)
+        if (labels(v, u) == face + 1)
+          ++votes[{frame.object(v, u), frame.face(v, u)}];
+    return std::max_element(
+               votes.begin(),
+               votes.end(),
+               [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+
+  CuboidEvidence
+  verify(const CuboidHypothesis& h, const SensorModel& model) const
+  {
+    CuboidEvidence evidence;
+    verifyCuboid(h,
+                 frame.images.inverse_depth,
+                 labels,
+                 faces,
+                 frame.images.intrinsics,
+                 model,
+                 3000,
+                 evidence);
+    return evidence;
+  }
+
+  bool
+  refine(CuboidHypothesis& h, const SensorModel& model, CuboidCovariance& c) const
+  {
+    return refineCuboid(h,
+                        verify(h, model),
+                        frame.images.inverse_depth,
+                        labels,
+                        faces,
+                        borders,
+                        frame.images.intrinsics,
+                        model,
+                        c);
+  }
+};
+
+CuboidHypothesis
+hypothesis(const samples::Box& box)
+{
+  CuboidHypothesis h;
+  h.axes = box.axes;
+  const Eigen::Vector3d middle = box.axes.transpose() * box.center;
+  h.lower = middle - box.size / 2;
+  h.upper = middle + box.size / 2;
+  h.ends.fill(EndSource::seen);
+  return h;
+}
+
+Cuboid
+cuboid(const CuboidHypothesis& h)
+{
+  Cuboid c;
+  c.center = h.center();
+  c.axes = h.axes;
+  c.size = h.size();
+  return c;
+}
+
+// A carton on the ground, a wall behind it, all in view.
+samples::Scene
+cartonBeforeWall()
+{
+  const samples::View view = samples::View::lookAt({0, -1.1, 0.75}, {0, 0, 0.1});
+  samples::Scene scene;
+  scene.boxes.push_back(view.box({0, 0, 0}, {0.8, 0.6}, {0.3, 0.22, 0.2}, {}, {}));
+  scene.patches.push_back(view.ground({3, 3}, {}, {}));
+  samples::Patch wall;
+  wall.center = view.sensor_to_world.inverse() * Eigen::Vector3d(0, 1.2, 0);
+  const Eigen::Matrix3d turn = view.sensor_to_world.linear().transpose();
+  wall.axes << turn.col(0), turn.col(2), -turn.col(1);
+  scene.patches.push_back(wall);
+  scene.has_support = true;
+  return scene;
+}
+
+// The same with a second box that covers a part of its front.
+samples::Scene
+coveredCarton()
+{
+  samples::Scene scene = cartonBeforeWall();
+  const samples::View view = samples::View::lookAt({0, -1.1, 0.75}, {0, 0, 0.1});
+  scene.boxes.push_back(
+      view.box({0.1, -0.25, 0}, {0.8, 0.6}, {0.1, 0.08, 0.24}, {}, {}));
+  return scene;
+}
+
+struct Count {
+  int right = 0, all = 0;
+};
+
+// Outline elements of box 0, sorted by what truly lies beyond their pixel side.
+std::map<BorderKind, Count>
+outlineOf(const Prepared& p, const samples::Scene& scene)
+{
+  std::map<BorderKind, Count> counts;
+  const samples::Patch& ground =
+      scene.patches.empty() ? samples::Patch{} : scene.patches.front();
+  std::vector<int> objects;
+  for (int f = 0; f < static_cast<int>(p.faces.size()); ++f)
+    objects.push_back(p.shows(f).first);
+  for (const BorderElement& e : p.borders.elements) {
+    if (objects[e.face] != 0)
+      continue;
+    const Eigen::Vector3d point = e.point.cast<double>();
+    const double pixel = point.z() / scene.camera.fx;
+    // the pixel on the other side
+    const Eigen::Vector2d q = scene.camera.project(point);
+    const Eigen::Vector2d out =
+        scene.camera.project(point + 0.01 * e.outward.cast<double>()) - q;
+    Eigen::Vector2d step(0, 0);
+    const double fu = e.pixel.x() - std::floor(e.pixel.x());
+    const int k = fu > 0.25 && fu < 0.75 ? 0 : 1; // which side of the pixel it is
+    step[k] = out[k] > 0 ? 0.5 : -0.5;
+    const int u = static_cast<int>(std::lround(e.pixel.x() + step.x()));
+    const int v = static_cast<int>(std::lround(e.pixel.y() + step.y()));
+    BorderKind truth = BorderKind::open;
+    if (u < 0 || v < 0 || u >= scene.width || v >= scene.height)
+      truth = BorderKind::cut;
+    else if (p.frame.object(v, u) < 0)
+      truth = BorderKind::open;
+    else if (p.frame.object(v, u) == 0)
+      truth = BorderKind::crease; // another face of the box
+    else if (p.frame.object(v, u) < static_cast<int>(scene.boxes.size()))
+      truth = BorderKind::occluded;
+    else {
+      // on the ground it is a crease, above it a jump; in between: nobody's business
+      const double height = std::abs(ground.axes.col(2).dot(point - ground.center));
+      if (height > 1.5 * pixel && height < 10 * pixel)
+        continue;
+      truth = height < pixel ? BorderKind::crease : BorderKind::jump;
+    }
+    ++counts[truth].all;
+    counts[truth].right += e.kind == truth ? 1 : 0;
+  }
+  return counts;
+}
+
+TEST(FaceBorders, SayWhyAFaceEnds)
+{
+  using K = BorderKind;
+  const auto expect = [](const samples::Scene& scene, std::vector<K> kinds) {
+    auto counts = outlineOf(Prepared(scene), scene);
+    for (const K kind : kinds) {
+      // A pixel beside a crease the two planes differ by their slopes, which on a frame
+      // without noise is more than the noise: there some creases pass for steps.
+      const double share = kind == K::crease ? 0.85 : 1;
+      EXPECT_GT(counts[kind].all, 50) << static_cast<int>(kind);
+      EXPECT_GE(counts[kind].right, share * counts[kind].all) << static_cast<int>(kind);
+    }
+    counts = outlineOf(Prepared(scene, 1, 1), scene);
+    for (const K kind : kinds)
+      EXPECT_GE(counts[kind].right, 0.9 * counts[kind].all) << static_cast<int>(kind);
+  };
+  expect(cartonBeforeWall(), {K::crease, K::jump});
+  expect(coveredCarton(), {K::crease, K::jump, K::occluded});
+
+  samples::Scene afloat = cartonBeforeWall();
+  afloat.patches.clear();
+  expect(afloat, {K::crease, K::open});
+
+  samples::Scene cut = cartonBeforeWall();
+  cut.camera.cx -= 330; // moves the carton over the left side of the image
+  expect(cut, {K::crease, K::jump, K::cut});
+}
+
+TEST(FaceBorders, AreLaidOutFaceByFace)
+{
+  const Prepared p(coveredCarton());
+  ASSERT_EQ(p.borders.first.size(), p.faces.size() + 1);
+  EXPECT_EQ(p.borders.first.front(), 0);
+  EXPECT_EQ(p.borders.first.back(), static_cast<int>(p.borders.elements.size()));
+  for (int f = 0; f < static_cast<int>(p.faces.size()); ++f)
+    for (int i = p.borders.first[f]; i < p.borders.first[f + 1]; ++i) {
+      const BorderElement& e = p.borders.elements[i];
+      ASSERT_EQ(e.face, f);
+      const PlanarFace& face = p.faces[f];
+      // on the plane, and outwards within it
+      ASSERT_NEAR(face.normal.dot(e.point.cast<double>()) + face.offset, 0, 1e-5);
+      ASSERT_NEAR(face.normal.dot(e.outward.cast<double>()), 0, 1e-4);
+      ASSERT_NEAR(e.outward.norm(), 1, 1e-5);
+    }
+}
+
+TEST(FaceBorders, AMaskCutsAsTheImageDoes)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  Prepared p(scene);
+  cv::Mat1b mask(scene.height, scene.width, static_cast<unsigned char>(255));
+  mask.colRange(0, scene.width / 2).setTo(0);
+  for (int v = 0; v < scene.height; ++v)
+    for (int u = 0; u < scene.width / 2; ++u)
+      p.labels(v, u) = 0;
+  findFaceBorders(p.labels,
+                  p.frame.images.inverse_depth,
+                  mask,
+                  scene.camera,
+                  p.sensor,
+                  p.faces,
+                  p.borders);
+  int at_mask = 0;
+  for (const BorderElement& e : p.borders.elements)
+    if (e.pixel.x() < scene.width / 2.0F) {
+      EXPECT_EQ(e.kind, BorderKind::cut);
+      ++at_mask;
+    }
+  EXPECT_EQ(at_mask, scene.height); // every row of an endless scene is cut once
+}
+
+TEST(CuboidVerification, TheTrueBoxScoresHighAndWrongOnesDoNot)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  const CuboidHypothesis truth = hypothesis(scene.boxes[0]);
+  const CuboidEvidence evidence = p.verify(truth, p.sensor);
+  const double score = evidence.score;
+  const double supported = evidence.supported() * evidence.stride * evidence.stride;
+  EXPECT_GT(score, 0.95);
+  const Eigen::Vector3d up = scene.patches[0].axes.col(2);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      SCOPED_TRACE(testing::Message() << "axis " << axis << " side " << side);
+      const double step = side * truth.size()[axis];
+      const auto end = [&](CuboidHypothesis h, double t) {
+        (side > 0 ? h.upper : h.lower)[axis] += t * step;
+        return h;
+      };
+      // Below ground nothing is seen: a longer box is no worse there.
+      const bool ground = truth.axes.col(axis).dot(up) * side < -0.99;
+      const double longer = p.verify(end(truth, 0.2), p.sensor).score;
+      EXPECT_LT(longer, ground ? score + 1e-9 : score - 0.3);
+      const bool visible = p.verify(truth, p.sensor).visible[2 * axis + (side + 1) / 2];
+      // A visible face moved inwards is covered by the true one, which says little;
+      // that the box explains fewer pixels is what selection sees.
+      const CuboidEvidence shorter = p.verify(end(truth, -0.2), p.sensor);
+      EXPECT_LT(shorter.score, visible ? score : 0.1);
+      EXPECT_LT(shorter.supported() * shorter.stride * shorter.stride,
+                0.95 * supported);
+      CuboidHypothesis shifted = truth;
+      shifted.upper[axis] += 0.5 * step;
+      shifted.lower[axis] += 0.5 * step;
+      EXPECT_LT(p.verify(shifted, p.sensor).score, 0.1);
+    }
+  // afloat before the true one, and behind it
+  for (const double t : {-0.15, 0.15}) {
+    CuboidHypothesis moved = truth;
+    const Eigen::Vector3d shift =
+        t * (truth.axes.transpose() * truth.center().normalized());
+    moved.lower += shift;
+    moved.upper += shift;
+    EXPECT_LT(p.verify(moved, p.sensor).score, 0.01) << t;
+  }
+}
+
+TEST(CuboidVerification, CountsWhatTheFrameSays)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  CuboidHypothesis h = hypothesis(scene.boxes[0]);
+  const CuboidEvidence truth = p.verify(h, p.sensor);
+  int visible = 0;
+  for (int f = 0; f < 6; ++f) {
+    visible += truth.visible[f] ? 1 : 0;
+    const FaceEvidence& e = truth.faces[f];
+    if (!truth.visible[f]) {
+      EXPECT_EQ(e.support + e.occluded + e.contradiction + e.missing, 0);
+      continue;
+    }
+    EXPECT_GT(e.support, 50);
+    EXPECT_EQ(e.contradiction + e.occluded + e.missing, 0);
+    EXPECT_DOUBLE_EQ(e.flat, 1);
+  }
+  EXPECT_EQ(visible, 3);
+  EXPECT_DOUBLE_EQ(truth.outline, 1);
+  EXPECT_EQ(static_cast<int>(truth.support.size()), truth.supported());
+  for (const int index : truth.support)
+    EXPECT_EQ(p.frame.object(index / scene.width, index % scene.width), 0);
+
+  // moved towards the camera the sensor sees through it, moved away it is covered
+  const Eigen::Vector3d ray = h.axes.transpose() * h.center().normalized();
+  for (const double t : {-0.2, 0.2}) {
+    CuboidHypothesis moved = h;
+    moved.lower += t * ray;
+    moved.upper += t * ray;
+    const CuboidEvidence e = p.verify(moved, p.sensor);
+    int against = 0, covered = 0, all = 0;
+    for (const FaceEvidence& f : e.faces) {
+      against += f.contradiction;
+      covered += f.occluded;
+      all += f.support + f.occluded + f.contradiction + f.missing;
+    }
+    EXPECT_GT(t < 0 ? against : covered, 0.9 * all) << t;
+  }
+}
+
+TEST(CuboidVerification, WhatCoversABoxIsNotHeldAgainstIt)
+{
+  const samples::Scene scene = coveredCarton();
+  const Prepared p(scene);
+  const CuboidHypothesis truth = hypothesis(scene.boxes[0]);
+  const CuboidEvidence e = p.verify(truth, p.sensor);
+  int occluded = 0, all = 0;
+  for (const FaceEvidence& f : e.faces) {
+    occluded += f.occluded;
+    all += f.support + f.occluded + f.contradiction + f.missing;
+  }
+  EXPECT_GT(occluded, 0.1 * all);
+  const double alone = Prepared(cartonBeforeWall()).verify(truth, p.sensor).score;
+  EXPECT_GT(e.score, 0.97 * alone);
+}
+
+TEST(CuboidVerification, BehindTheCameraIsNothing)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  CuboidHypothesis h = hypothesis(scene.boxes[0]);
+  const Eigen::Vector3d back = h.axes.transpose() * Eigen::Vector3d(0, 0, -3);
+  h.lower += back;
+  h.upper += back;
+  const CuboidEvidence e = p.verify(h, p.sensor);
+  EXPECT_EQ(e.score, 0);
+  EXPECT_TRUE(e.support.empty());
+}
+
+CuboidHypothesis
+perturbed(const CuboidHypothesis& truth,
+          double shift,
+          double angle,
+          samples::Random& random)
+{
+  CuboidHypothesis h = truth;
+  const auto direction = [&] {
+    return Eigen::Vector3d(random.normal(), random.normal(), random.normal())
+        .normalized();
+  };
+  const Eigen::Vector3d center = h.center();
+  h.axes = Eigen::AngleAxisd(angle, direction()).toRotationMatrix() * h.axes;
+  const Eigen::Vector3d middle = h.axes.transpose() * (center + shift * direction());
+  const Eigen::Vector3d half =
+      truth.size() / 2 + shift / 2 * Eigen::Vector3d(direction());
+  h.lower = middle - half;
+  h.upper = middle + half;
+  return h;
+}
+
+// One fit reaches as far as its gates: some sigma and a pixel and a half. Hypotheses
+// start there. From farther off it takes a coarse model of the sensor first.
+TEST(CuboidRefinement, ComesBackToTheTruth)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  const CuboidHypothesis truth = hypothesis(scene.boxes[0]);
+  struct Start {
+    double shift, angle, scale;
+  };
+  for (const Start& start :
+       {Start{0.002, 0.3 * test::degree, 1}, Start{0.005, 0.75 * test::degree, 5}}) {
+    samples::Random random(1);
+    for (int k = 0; k < 20; ++k) {
+      SCOPED_TRACE(testing::Message() << start.shift << " m, start " << k);
+      CuboidHypothesis h = perturbed(truth, start.shift, start.angle, random);
+      CuboidCovariance c;
+      SensorModel rough;
+      for (rough.scale = start.scale; rough.scale > 0.5; rough.scale /= 2)
+        for (int pass = 0; pass < 2; ++pass)
+          ASSERT_TRUE(p.refine(h, rough, c));
+      ASSERT_TRUE(p.refine(h, p.sensor, c));
+      const auto e = test::compare(cuboid(h), cuboid(truth));
+      EXPECT_LT(e.center, 1e-4);
+      EXPECT_LT(e.maxSize(), 1e-4);
+      EXPECT_LT(e.rotation, 0.01 * test::degree);
+    }
+  }
+}
+
+TEST(CuboidRefinement, SigmaFollowsTheNoise)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  const CuboidHypothesis truth = hypothesis(scene.boxes[0]);
+  CuboidCovariance sigma[2];
+  for (int k = 0; k < 2; ++k) {
+    SensorModel model;
+    model.scale = k + 1;
+    CuboidHypothesis h = truth;
+    ASSERT_TRUE(p.refine(h, model, sigma[k]));
+  }
+  // turns come from depth alone; outlines are off by a share of a pixel besides
+  const double turn = sigma[1].rotation / sigma[0].rotation;
+  EXPECT_GT(turn, 1.7);
+  EXPECT_LT(turn, 2.05);
+  const double center = sigma[1].center.norm() / sigma[0].center.norm();
+  EXPECT_GT(center, 1.02);
+  EXPECT_LT(center, 2.05);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GT(sigma[1].size[i], 1.02 * sigma[0].size[i]);
+    EXPECT_LT(sigma[1].size[i], 2.05 * sigma[0].size[i]);
+  }
+}
+
+// Independent noise spreads less than the correlated noise that sigma speaks of.
+TEST(CuboidRefinement, SigmaCoversTheSpread)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const CuboidHypothesis truth = hypothesis(scene.boxes[0]);
+  double center = 0, size = 0, turn = 0;
+  constexpr int n = 12;
+  for (int seed = 1; seed <= n; ++seed) {
+    const Prepared p(scene, 1, seed);
+    CuboidHypothesis h = truth;
+    CuboidCovariance c;
+    ASSERT_TRUE(p.refine(h, p.sensor, c));
+    const auto e = test::compare(cuboid(h), cuboid(truth));
+    center += e.center * e.center / c.center.squaredNorm() / n;
+    size += e.size.squaredNorm() / c.size.squaredNorm() / n;
+    turn += e.rotation * e.rotation / (c.rotation * c.rotation) / n;
+  }
+  for (const double square : {center, size, turn}) {
+    EXPECT_LT(std::sqrt(square), 1);
+    EXPECT_GT(std::sqrt(square), 0.05); // and does not exaggerate without bounds
+  }
+}
+
+TEST(CuboidRefinement, RefusesWithoutEvidence)
+{
+  const samples::Scene scene = cartonBeforeWall();
+  const Prepared p(scene);
+  CuboidHypothesis h = hypothesis(scene.boxes[0]);
+  const Eigen::Vector3d up = h.axes.transpose() * Eigen::Vector3d(0, -0.5, 0);
+  h.lower += up;
+  h.upper += up;
+  const CuboidHypothesis before = h;
+  CuboidCovariance c;
+  EXPECT_FALSE(p.refine(h, p.sensor, c));
+  EXPECT_EQ(h.lower, before.lower); // as it was
+  EXPECT_EQ(h.axes, before.axes);
+}
+
+CuboidCandidate
+candidate(double left, double width, double score, int pixels)
+{
+  CuboidCandidate c;
+  c.hypothesis.lower = {left, 0, 1};
+  c.hypothesis.upper = {left + width, 1, 2};
+  c.evidence.score = score;
+  c.evidence.faces[0].support = pixels;
+  return c;
+}
+
+TEST(CuboidSelection, TakesTheSetThatExplainsTheMost)
+{
+  std::vector<int> chosen;
+  // the whole against two halves
+  selectCuboids({candidate(0, 2, 0.9, 1000),
+                 candidate(0, 1, 0.95, 600),
+                 candidate(1, 1, 0.98, 600)},
+                0.5,
+                chosen);
+  // the halves explain 1158 together, but each exchange alone is a loss
+  EXPECT_EQ(chosen, (std::vector<int>{0}));
+  selectCuboids({candidate(0, 2, 0.9, 500),
+                 candidate(0, 1, 0.95, 600),
+                 candidate(1, 1, 0.98, 600)},
+                0.5,
+                chosen);
+  EXPECT_EQ(chosen, (std::vector<int>{2, 1})); // best score first
+  // too bad, and too much alike
+  selectCuboids({candidate(0, 1, 0.4, 900), candidate(5, 1, 0.6, 100)}, 0.5, chosen);
+  EXPECT_EQ(chosen, (std::vector<int>{1}));
+  selectCuboids({candidate(0, 1, 0.7, 900), candidate(0.1, 1, 0.9, 900)}, 0.5, chosen);
+  EXPECT_EQ(chosen, (std::vector<int>{1}));
+  // neighbours that touch do not exclude each other
+  selectCuboids({candidate(0, 1, 0.7, 900), candidate(0.9, 1, 0.9, 900)}, 0.5, chosen);
+  EXPECT_EQ(chosen.size(), 2U);
+  selectCuboids({}, 0.5, chosen);
+  EXPECT_TRUE(chosen.empty());
+}
+
+} // namespace
+} // namespace hoist
