@@ -141,10 +141,10 @@ refineCuboid(CuboidHypothesis& hypothesis,
   // Face pixels: an even subset of the support. Which labels lie on which box face?
   std::vector<FacePixel> pixels;
   std::vector<std::array<int, 7>> votes; // label, then count per face
-  const std::size_t step =
+  const std::size_t every =
       std::max<std::size_t>(1, evidence.support.size() / max_face_pixels);
-  const double share = static_cast<double>(evidence.stride) * evidence.stride * step;
-  for (std::size_t i = 0; i < evidence.support.size(); i += step) {
+  const double share = static_cast<double>(evidence.stride) * evidence.stride * every;
+  for (std::size_t i = 0; i < evidence.support.size(); i += every) {
     const int index = evidence.support[i];
     const int u = index % image.cols, v = index / image.cols;
     const Eigen::Vector3d ray = camera.ray(u, v);
