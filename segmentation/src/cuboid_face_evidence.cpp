@@ -20,15 +20,14 @@ using PatchGrid = std::array<Patch, static_cast<std::size_t>(patches) * patches>
 
 // Share of the uncovered patches whose mean lies on the face.
 double
-flatShare(const PatchGrid& grid, double noise, double tolerance)
+flatShare(const PatchGrid& grid, double missing_weight, double noise, double tolerance)
 {
   double good = 0, bad = 0;
   for (const Patch& p : grid) {
     const int open = p.support + p.contradiction + p.missing;
     if (open < 2 || p.occluded > open)
       continue;
-    // nothing measured is weak evidence against, seen through is strong
-    const double weight = p.support + p.contradiction + 0.5 * p.missing;
+    const double weight = p.support + p.contradiction + missing_weight * p.missing;
     const double limit = tolerance + 2 * noise / std::sqrt(std::max(1, p.support));
     if (p.support > p.contradiction + p.missing && std::abs(p.sum / p.support) < limit)
       good += weight;
@@ -125,7 +124,11 @@ collectFaceEvidence(const CuboidView& view,
     const double shorter = std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
     // real cartons bulge: a few per cent of the side
     const double tolerance = 0.03 * shorter + 0.5 * noise;
-    evidence.faces[view.front[k]].flat = flatShare(grids[k], noise, tolerance);
+    // Nothing measured is weak evidence against, seen through is strong. A face without
+    // any depth, in the projector's shadow say, is hardly evidence at all.
+    FaceEvidence& e = evidence.faces[view.front[k]];
+    e.missing_weight = e.missing > 4 * (e.support + e.contradiction) ? 0.1 : 0.5;
+    e.flat = flatShare(grids[k], e.missing_weight, noise, tolerance);
   }
 }
 

@@ -113,7 +113,7 @@ private:
            other.normal.dot(face_center_) + other.offset > 2 * noise;
   }
 
-  // The same without a label: farther out it is clearly above the face's plane.
+  // The same as isSupport() without a label: farther out it is clearly above the plane.
   bool
   risesFartherOut() const
   {
@@ -122,6 +122,16 @@ private:
     cv::Point at;
     double z = 0, noise = 0;
     return look(local, at, z) && image_(at) > 0 && height(at, z, noise) > 2 * noise;
+  }
+
+  // A parallel surface farther back is a step, however small; what bends away is not
+  // parallel.
+  bool
+  isSetBack(const cv::Point& at) const
+  {
+    constexpr double min_cosine = 0.985;
+    const short label = labels_(at);
+    return label > 0 && faces_[label - 1].normal.dot(normal_) > min_cosine;
   }
 
   void
@@ -141,7 +151,7 @@ private:
     const double up = height(at, z, noise);
     if (up > gate * noise)
       return; // covered, or a surface that rises: says nothing
-    if (up < -gate * noise - beyond_)
+    if (up < -gate * noise - beyond_ || (up < -gate * noise && isSetBack(at)))
       ++edge.good;
     else if (!isSupport(at, noise) && !risesFartherOut())
       ++edge.bad;

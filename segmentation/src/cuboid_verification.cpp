@@ -60,7 +60,7 @@ verifyCuboid(const CuboidHypothesis& h,
   int observed = 0;
   for (int k = 0; k < view.fronts; ++k) {
     const FaceEvidence& e = evidence.faces[view.front[k]];
-    const double open = e.support + e.contradiction + e.missing;
+    const double open = e.support + e.contradiction + 2 * e.missing_weight * e.missing;
     area += open;
     flat += open * e.flat;
     constexpr int min_face_pixels = 30;

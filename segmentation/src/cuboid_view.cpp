@@ -53,9 +53,9 @@ CuboidView::CuboidView(const CuboidHypothesis& hypothesis,
       front[fronts++] = f;
     }
     else {
-      d -= side(f) * std::min(rim, 0.25 * box.size()[f / 2]);
-      if (std::abs(d) < edge_on)
-        d = edge_on * side(f);
+      // not past the camera, which would make it a visible one
+      d = side(f) *
+          std::max(edge_on, side(f) * d - std::min(rim, 0.25 * box.size()[f / 2]));
       hidden[n_hidden++] = f;
     }
     planes[f] = toPixels(box.axes.col(f / 2), d, camera);

@@ -14,11 +14,12 @@ namespace hoist {
 
 /** \brief What the frame says of one visible face of a cuboid, in sampled pixels. */
 struct FaceEvidence {
-  int support = 0;       ///< measured where the face should be
-  int occluded = 0;      ///< something nearer is in front
-  int contradiction = 0; ///< the sensor saw through it
-  int missing = 0;       ///< nothing measured
-  double flat = 0;       ///< share of what is not covered where the mean depth is right
+  int support = 0;             ///< measured where the face should be
+  int occluded = 0;            ///< something nearer is in front
+  int contradiction = 0;       ///< the sensor saw through it
+  int missing = 0;             ///< nothing measured
+  double missing_weight = 0.5; ///< how much a missing pixel counts against it
+  double flat = 0; ///< share of what is not covered where the mean depth is right
 };
 
 /** \brief What the frame says of an edge between a visible and a hidden face. */
