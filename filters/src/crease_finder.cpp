@@ -54,7 +54,8 @@ void
 CreaseFinder::reduce(const cv::Mat1f& w, const cv::Mat1b& steps)
 {
   const int cols = w.cols / factor_, rows = w.rows / factor_;
-  const float least = static_cast<float>((factor_ * factor_ + 1) / 2);
+  const int half = (factor_ * factor_ + 1) / 2; // rounded up
+  const float least = static_cast<float>(half);
   cells_.create(rows, cols);
   sum_.resize(static_cast<std::size_t>(w.cols));
   count_.resize(static_cast<std::size_t>(w.cols));
