@@ -79,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes,
     FullModeExact,
     testing::Values(Law{true, 4}, Law{false, 4}, Law{true, 20}, Law{false, 20}),
-    [](const testing::TestParamInfo<Law>& info) {
-      return std::string(info.param.on_ground ? "Ground" : "Afloat") +
-             (info.param.max_aspect > 4 ? "Slabs" : "Boxes");
+    [](const testing::TestParamInfo<Law>& law) {
+      return std::string(law.param.on_ground ? "Ground" : "Afloat") +
+             (law.param.max_aspect > 4 ? "Slabs" : "Boxes");
     });
 
 TEST(FullModeScenes, NoisyTablesAreReadRight)
