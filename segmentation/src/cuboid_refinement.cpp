@@ -256,8 +256,13 @@ refineCuboid(CuboidHypothesis& hypothesis,
       sums[f].addTo(normal, gradient, axes.col(f / 2), f);
     // what nothing measures stays where the hypothesis put it
     for (int f = 0; f < 6; ++f) {
-      // an end on a support is as good as the support's plane
-      const double prior = h.ends[f] == EndSource::support ? noise : 1.0; // [m]
+      // an end on a support is as good as the support's plane; a seen one is where its
+      // pixels piled up, should none of them be in reach now
+      double prior = 1.0; // [m]
+      if (h.ends[f] == EndSource::support)
+        prior = noise;
+      else if (h.ends[f] == EndSource::seen)
+        prior = 4 * pixel + noise;
       normal(3 + f, 3 + f) += 1 / (prior * prior);
       gradient[3 + f] += (ends[3 + f] - start[3 + f]) / (prior * prior);
     }

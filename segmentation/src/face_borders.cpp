@@ -58,10 +58,10 @@ struct Walker {
         // across a gap the other surface is carried back to the border
         const double there = k <= max_fringe + 1 ? plane(other, su, sv) : w;
         const double here = k <= max_fringe + 1 ? own : plane(face, x, y);
-        // slanted surfaces may disagree by a pixel's worth of slope
-        const Eigen::Vector3d& p = faces[other].inverse_depth;
-        const double slope =
-            2 * (du != 0 ? std::abs(p[0]) : std::abs(p[1])) * (k <= max_fringe + 1);
+        // one pixel beside the crease they disagree by the difference of their slopes
+        const Eigen::Vector3d turn =
+            faces[face].inverse_depth - faces[other].inverse_depth;
+        const double slope = k <= max_fringe + 1 ? std::hypot(turn.x(), turn.y()) : 0.0;
         BorderKind kind = BorderKind::crease;
         if (there < here - gate - slope)
           kind = BorderKind::jump;

@@ -222,9 +222,6 @@ FullMode::segment(const FrameImages& images,
   }
   selectCuboids(w.candidates, parameters.min_score, w.chosen);
   for (const int i : w.chosen) {
-    if (parameters.max_cuboids > 0 &&
-        static_cast<int>(cuboids.size()) >= parameters.max_cuboids)
-      break;
     // every supporting pixel, and the score of all pixels instead of a sample
     CuboidCandidate& c = w.candidates[i];
     verify(c, std::numeric_limits<int>::max());
@@ -237,6 +234,9 @@ FullMode::segment(const FrameImages& images,
   std::stable_sort(cuboids.begin(),
                    cuboids.end(),
                    [](const Cuboid& a, const Cuboid& b) { return a.score > b.score; });
+  const auto most = static_cast<std::size_t>(std::max(0, parameters.max_cuboids));
+  if (most > 0 && cuboids.size() > most)
+    cuboids.resize(most);
   diagnostics.counts.add("cuboids", cuboids.size());
   return true;
 }
