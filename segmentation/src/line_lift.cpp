@@ -53,7 +53,7 @@ struct Side {
   double squares = 0; // weighted sum of squared residuals, in units of 1/m^2
   double weight = 0;
   double
-  inverse_depth(double t) const
+  inverseDepth(double t) const
   {
     return abc[0] + abc[1] * t;
   }
@@ -157,7 +157,7 @@ joinSides(const std::array<Side, 2>& sides, double length)
   std::array<double, 2> flat_depth{};
   for (int k = 0; k < 2; ++k) {
     const double t = k == 0 ? 0 : length;
-    const double q0 = sides[0].inverse_depth(t), q1 = sides[1].inverse_depth(t);
+    const double q0 = sides[0].inverseDepth(t), q1 = sides[1].inverseDepth(t);
     const double v0 = sides[0].variance(t), v1 = sides[1].variance(t);
     flat = flat && std::abs(q0 - q1) <= 3 * std::sqrt(v0 + v1);
     flat_depth[k] = (q0 / v0 + q1 / v1) / (1 / v0 + 1 / v1);
@@ -263,15 +263,15 @@ liftRobust(const FrameImages& images,
   const Joint joint = two ? joinSides(sides, length) : Joint();
   const bool both = joint.kind != Joint::step;
   const int nearer =
-      !sides[0].valid || (sides[1].valid && sides[1].inverse_depth(length / 2) >
-                                                sides[0].inverse_depth(length / 2))
+      !sides[0].valid || (sides[1].valid && sides[1].inverseDepth(length / 2) >
+                                                sides[0].inverseDepth(length / 2))
           ? 1
           : 0;
 
   std::array<Eigen::Vector3d, 2> points;
   std::array<Eigen::Vector2f, 2> pixels = segment.pixels;
   for (int k = 0; k < 2; ++k) {
-    double q = sides[nearer].inverse_depth(k == 0 ? 0 : length);
+    double q = sides[nearer].inverseDepth(k == 0 ? 0 : length);
     if (both) {
       q = joint.inverse_depth[k];
       pixels[k] += (joint.shift[k] * across).cast<float>();

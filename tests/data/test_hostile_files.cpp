@@ -266,8 +266,9 @@ TEST_P(HostileFiles, EndInAnErrorThatNamesFileAndCause)
     for (const char c : what)
       EXPECT_GE(static_cast<unsigned char>(c), 32) << "control characters in " << what;
   }
-  if (hoist::test::memory_is_measurable)
+  if (hoist::test::memory_is_measurable) {
     EXPECT_LT(peakKiB() - before, 64 * 1024);
+  }
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
@@ -386,8 +387,9 @@ TEST(HostileFiles, RandomMutations)
   }
   EXPECT_GT(read, 100u); // both happen, or the test tests nothing
   EXPECT_GT(refused, 100u);
-  if (hoist::test::memory_is_measurable)
+  if (hoist::test::memory_is_measurable) {
     EXPECT_LT(peakKiB() - before, 256 * 1024);
+  }
 }
 
 } // namespace

@@ -507,8 +507,9 @@ TEST(PTSWriter, OrganizedCloudComesBackBitForBit)
   readPTS(folder.name("six.pts"), back);
   ASSERT_EQ(back.size(), cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (std::isfinite(cloud[i].z))
+    if (std::isfinite(cloud[i].z)) {
       EXPECT_NEAR(back[i].y, cloud[i].y, 0.51e-6);
+    }
 }
 
 TEST(PTSWriter, DialectsFollowTheFields)
