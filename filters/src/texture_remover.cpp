@@ -110,8 +110,9 @@ TextureRemover::measure(Run& run, int columns, float gx, float gy) const
   run.u = static_cast<float>(sum_u) / size;
   run.v = static_cast<float>(sum_v) / size;
   for (int k = run.begin; k < run.end; ++k) {
-    const float t = run.tu * (static_cast<float>(pixels_[k] % columns) - run.u) +
-                    run.tv * (static_cast<float>(pixels_[k] / columns) - run.v);
+    const int column = pixels_[k] % columns, row = pixels_[k] / columns;
+    const float t = run.tu * (static_cast<float>(column) - run.u) +
+                    run.tv * (static_cast<float>(row) - run.v);
     run.least = std::min(run.least, t);
     run.most = std::max(run.most, t);
   }
