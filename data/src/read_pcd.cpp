@@ -2,6 +2,7 @@
 // that disagree on one header would be a hole. Every number of the header is checked
 // against the bytes that are there before memory is asked for.
 #include "chunk_reader.h"
+#include "header_text.h"
 #include "parse_number.h"
 #include "raw_cloud.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -42,36 +42,6 @@ struct Header {
   std::size_t lines = 0;
   std::uint64_t step = 0;
 };
-
-std::vector<std::string>
-split(const std::string& line, std::size_t limit)
-{
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (words.size() < limit) {
-    while (at < line.size() && space(line[at]))
-      ++at;
-    if (at == line.size())
-      break;
-    const std::size_t first = at;
-    while (at < line.size() && !space(line[at]))
-      ++at;
-    words.push_back(line.substr(first, at - first));
-  }
-  return words;
-}
-
-std::string
-shown(std::string text)
-{
-  if (text.size() > 40)
-    text = text.substr(0, 40) + "...";
-  for (char& c : text)
-    if (std::isprint(static_cast<unsigned char>(c)) == 0)
-      c = '?';
-  return '"' + text + '"';
-}
 
 // Reads the header's lines one by one; knows the file and the line for messages.
 class HeaderParser {

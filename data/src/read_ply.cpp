@@ -1,12 +1,12 @@
 // PLY, ascii and binary of both byte orders. The grid's size comes from "obj_info
 // num_cols" and "num_rows" or from a camera element's viewport, as PCL writes them.
 #include "chunk_reader.h"
+#include "header_text.h"
 #include "parse_number.h"
 #include "raw_cloud.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -71,35 +71,7 @@ typeOf(const std::string& name)
   return found == table.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<std::string>
-split(const std::string& line)
-{
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (words.size() < 8) {
-    while (at < line.size() && space(line[at]))
-      ++at;
-    if (at == line.size())
-      break;
-    const std::size_t first = at;
-    while (at < line.size() && !space(line[at]))
-      ++at;
-    words.push_back(line.substr(first, at - first));
-  }
-  return words;
-}
-
-std::string
-shown(std::string text)
-{
-  if (text.size() > 40)
-    text = text.substr(0, 40) + "...";
-  for (char& c : text)
-    if (std::isprint(static_cast<unsigned char>(c)) == 0)
-      c = '?';
-  return '"' + text + '"';
-}
+constexpr std::size_t max_words = 8; // of a header line; no valid one has more
 
 class HeaderParser {
 public:
@@ -121,7 +93,7 @@ public:
                                   std::to_string(max_header) + " bytes"
                             : "the header ends before end_header");
       ++header_.lines;
-      parseLine(split(head_.substr(at_, stop - at_)));
+      parseLine(split(head_.substr(at_, stop - at_), max_words));
       at_ = stop + 1;
     }
     header_.size = at_;
