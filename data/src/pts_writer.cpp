@@ -58,22 +58,18 @@ public:
   real(float value)
   {
     // at most 48 digits before the point and decimals_ <= 20 after it
-    char* const end = text_.data() + text_.size();
+    char* const here = text_.data() + size_;
     const auto result =
         decimals_ < 0
-            ? std::to_chars(text_.data() + size_, end, value, std::chars_format::fixed)
-            : std::to_chars(text_.data() + size_,
-                            end,
-                            value,
-                            std::chars_format::fixed,
-                            decimals_);
+            ? std::to_chars(here, last(), value, std::chars_format::fixed)
+            : std::to_chars(here, last(), value, std::chars_format::fixed, decimals_);
     finish(result.ptr);
   }
 
   void
   whole(std::uint32_t value)
   {
-    finish(std::to_chars(text_.data() + size_, text_.data() + text_.size(), value).ptr);
+    finish(std::to_chars(text_.data() + size_, last(), value).ptr);
   }
 
   void
@@ -92,6 +88,13 @@ public:
   }
 
 private:
+  // where a number must have ended: its separator still fits
+  char*
+  last()
+  {
+    return text_.data() + text_.size() - 1;
+  }
+
   void
   finish(const char* stop)
   {
