@@ -18,6 +18,22 @@ struct Patch {
 
 using PatchGrid = std::array<Patch, static_cast<std::size_t>(patches) * patches>;
 
+// What the nearer of the two surfaces beside a gap in a row measures, 0 where neither
+// is within reach: a depth sensor sees nothing in the shadow that its projector, or its
+// second camera, has beside a nearer thing.
+float
+nearerBeside(const float* row, int u, int width)
+{
+  const int reach = width / 10;
+  const int first = std::max(0, u - reach), last = std::min(width - 1, u + reach);
+  int left = u - 1, right = u + 1;
+  while (left >= first && !(row[left] > 0))
+    --left;
+  while (right <= last && !(row[right] > 0))
+    ++right;
+  return std::max(left >= first ? row[left] : 0.0f, right <= last ? row[right] : 0.0f);
+}
+
 // Share of the uncovered patches whose mean lies on the face.
 double
 flatShare(const PatchGrid& grid, double missing_weight, double noise, double tolerance)
@@ -92,15 +108,18 @@ collectFaceEvidence(const CuboidView& view,
       Patch& patch = grids[k][index(p) * patches + index(q)];
       FaceEvidence& e = evidence.faces[f];
       const float w = row[u];
+      const double noise = view.sensor.sigmaZ(z) * enter * enter;
+      constexpr double gate = 3.5;
+      const double gate_square = gate * gate * (noise * noise + lateral_square[k]);
       if (!(w > 0)) {
-        ++e.missing;
-        ++patch.missing;
+        const double beside = nearerBeside(row, u, image.cols) - enter;
+        const bool shadow = beside > 0 && beside * beside > gate_square;
+        ++(shadow ? e.occluded : e.missing);
+        ++(shadow ? patch.occluded : patch.missing);
         continue;
       }
-      const double noise = view.sensor.sigmaZ(z) * enter * enter;
       const double r = w - enter;
-      constexpr double gate = 3.5;
-      const bool near = r * r <= gate * gate * (noise * noise + lateral_square[k]);
+      const bool near = r * r <= gate_square;
       if (near) {
         ++e.support;
         ++patch.support;

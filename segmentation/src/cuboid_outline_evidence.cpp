@@ -139,8 +139,8 @@ private:
   {
     cv::Point at;
     double z = 0, noise = 0;
-    if (!look(local_, at, z))
-      return;
+    if (!look(local_, at, z) || view_.covers(at.x, at.y))
+      return; // off the image, or round a corner: another face of the box is seen there
     if (!(image_(at) > 0)) {
       ++edge.good;
       return;

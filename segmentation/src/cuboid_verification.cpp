@@ -31,6 +31,18 @@ trust(EndSource end)
   return 0.6;
 }
 
+// A face seen at a grazing angle is a strip of few pixels, and the error of the pose
+// alone hides or shows it: the share of its width that a pixel or two cannot change.
+double
+certainty(const FaceEvidence& e, int stride, double longest_side)
+{
+  constexpr double blur = 3; // [px]
+  const double pixels = static_cast<double>(stride) * stride *
+                        (e.support + e.occluded + e.contradiction + e.missing);
+  const double width = pixels / longest_side;
+  return width > blur ? 1 - blur / width : 0;
+}
+
 } // namespace
 
 void
@@ -56,13 +68,18 @@ verifyCuboid(const CuboidHypothesis& h,
 
   // Faces: the share of what is not covered that lies where it should, weighted by
   // area.
+  const Eigen::Vector3d size = h.size();
   double area = 0, flat = 0;
   int observed = 0;
   for (int k = 0; k < view.fronts; ++k) {
     const FaceEvidence& e = evidence.faces[view.front[k]];
     const double open = e.support + e.contradiction + 2 * e.missing_weight * e.missing;
-    area += open;
-    flat += open * e.flat;
+    const int axis = view.front[k] / 2;
+    const double longest = std::max(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+    const double weight =
+        open * certainty(e, evidence.stride, longest / view.pixel) + 1e-9;
+    area += weight;
+    flat += weight * e.flat;
     constexpr int min_face_pixels = 30;
     const double pixels =
         static_cast<double>(e.support) * evidence.stride * evidence.stride;

@@ -2,6 +2,7 @@
 
 #include <hoist/segmentation/cuboid_verification.h>
 
+#include <algorithm>
 #include <array>
 
 namespace hoist {
@@ -45,6 +46,19 @@ struct CuboidView {
   valid() const
   {
     return fronts > 0 && left <= right && top <= bottom;
+  }
+
+  /// Whether the box is seen at a pixel, the rim of its outline excepted.
+  bool
+  covers(double u, double v) const
+  {
+    double enter = planes[front[0]].at(u, v);
+    for (int i = 1; i < fronts; ++i)
+      enter = std::min(enter, planes[front[i]].at(u, v));
+    bool inside = enter > 0;
+    for (int i = 0; i < n_hidden && inside; ++i)
+      inside = planes[hidden[i]].at(u, v) < enter;
+    return inside;
   }
 
   double

@@ -1,6 +1,7 @@
 #include <hoist/segmentation/full_mode.h>
 
 #include <hoist/segmentation/cuboid_hypotheses.h>
+#include <hoist/segmentation/cuboid_roundness.h>
 #include <hoist/segmentation/cuboid_selection.h>
 #include <hoist/segmentation/cuboid_verification.h>
 #include <hoist/segmentation/face_borders.h>
@@ -217,8 +218,23 @@ FullMode::segment(const FrameImages& images,
                              c.covariance);
     if (c.refined)
       verify(c, samples);
-    if (c.evidence.score < parameters.min_score)
+    if (c.evidence.score < parameters.min_score) {
       diagnostics.rejected.add("score below the minimum");
+      continue;
+    }
+    if (c.hypothesis.size().minCoeff() < parameters.min_side) {
+      c.evidence.score = 0;
+      diagnostics.rejected.add("side length outside the limits");
+      continue;
+    }
+    // Chosen on rendered tables: no box of 586 exceeds it, and of 93 cylinders two are
+    // below.
+    constexpr double max_roundness = 1.1;
+    if (cuboidRoundness(c.hypothesis, images.inverse_depth, images.intrinsics, sensor) >
+        max_roundness) {
+      c.evidence.score = 0;
+      diagnostics.rejected.add("a cylinder explains it better");
+    }
   }
   selectCuboids(w.candidates, parameters.min_score, w.chosen);
   for (const int i : w.chosen) {
