@@ -17,4 +17,9 @@ Action addInfoCommand(CLI::App& program);
 
 Action addConvertCommand(CLI::App& program);
 
+Action addBatchCommand(CLI::App& program);
+
+/** \brief The hidden command that `hoist batch` starts its workers with. */
+Action addBatchWorkerCommand(CLI::App& program);
+
 } // namespace hoist

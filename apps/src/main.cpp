@@ -20,7 +20,8 @@ const char* const footer =
     "\n"
     "Exit codes: 0 done, also where a frame shows no cuboid; 1 a "
     "file cannot be read or\nwritten; 2 unknown option, bad value "
-    "or missing file.\n"
+    "or missing file; of batch also 3 some files are\nquarantined; 75 not all "
+    "done, run again.\n"
     "Example: hoist recognize frame.pcd -o results\n";
 
 // One line: what is wrong and where help is.
@@ -80,7 +81,9 @@ main(int argc, char** argv)
   program.require_subcommand(1);
   const std::vector<hoist::Action> actions = {hoist::addRecognizeCommand(program),
                                               hoist::addInfoCommand(program),
-                                              hoist::addConvertCommand(program)};
+                                              hoist::addConvertCommand(program),
+                                              hoist::addBatchCommand(program),
+                                              hoist::addBatchWorkerCommand(program)};
   try {
     const std::string unknown = unknownWord(program, argc, argv);
     if (!unknown.empty())

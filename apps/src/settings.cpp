@@ -283,6 +283,12 @@ void
 addRecognizeOptions(CLI::App& command, RecognizeSettings& settings)
 {
   addCommon(command, settings);
+  addMethodOptions(command, settings);
+}
+
+void
+addMethodOptions(CLI::App& command, RecognizeSettings& settings)
+{
   addMethod(command, settings);
   addEdges(command, settings.paper.canny);
   addSchedule(command, settings.paper);
@@ -294,12 +300,18 @@ completeSettings(CLI::App& command, RecognizeSettings& settings)
 {
   if (!settings.config.empty())
     applyYaml(command, settings.config);
+  checkMethod(settings);
+  if (!settings.output.empty())
+    checkOutputNames(settings);
+}
+
+void
+checkMethod(const RecognizeSettings& settings)
+{
   if (settings.full.min_side > settings.full.max_side)
     throw UsageError("--min-side is larger than --max-side");
   if (settings.paper.canny.low > settings.paper.canny.high)
     throw UsageError("--canny-low is larger than --canny-high");
-  if (!settings.output.empty())
-    checkOutputNames(settings);
 }
 
 } // namespace hoist

@@ -34,6 +34,13 @@ struct RecognizeSettings {
  */
 void addRecognizeOptions(CLI::App& command, RecognizeSettings& settings);
 
+/** \brief Adds only those of them that change what is found in a frame. */
+void addMethodOptions(CLI::App& command, RecognizeSettings& settings);
+
+/** \brief Checks of them what no single option can.
+ *  \throws UsageError */
+void checkMethod(const RecognizeSettings& settings);
+
 /** \brief Reads the YAML file if one is named and checks what no single option can.
  *  \throws UsageError */
 void completeSettings(CLI::App& command, RecognizeSettings& settings);
