@@ -8,6 +8,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace hoist {
@@ -51,6 +52,11 @@ struct PlanarFaceParameters {
  */
 class HOIST_SEGMENTATION_EXPORT PlanarFaceFinder {
 public:
+  PlanarFaceFinder();
+  ~PlanarFaceFinder();
+  PlanarFaceFinder(PlanarFaceFinder&&) noexcept;
+  PlanarFaceFinder& operator=(PlanarFaceFinder&&) noexcept;
+
   /** \param inverse_depth height x width [1/m], 0 where not measured
    *  \param camera valid intrinsics of the image
    *  \param mask pixels to use (non-zero), same size, or empty
@@ -75,50 +81,9 @@ public:
   }
 
 private:
-  /// Sums over the measured pixels of a cell or region, for the plane fit.
-  struct Moments {
-    double n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0, w = 0, uw = 0, vw = 0, ww = 0;
-
-    Moments& operator+=(const Moments& o);
-
-    bool fit(Eigen::Vector3d& plane) const;
-
-    /// Mean and mean square of w - plane.
-    void residual(const Eigen::Vector3d& plane, double& mean, double& square) const;
-  };
-  struct Seed {
-    float quality;
-    int cell;
-  };
-
-  void sumCells(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask);
-  void collectSeeds(int window_width, int window_height);
-  bool growFrom(const Seed& seed, int window_width, int window_height);
-  void mergeCoplanar();
-  /// Faces narrower than a cell, from what is left.
-  void
-  addSlivers(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask, cv::Mat1s& labels);
-  void
-  labelPixels(const cv::Mat1f& inverse_depth, const cv::Mat1b& mask, cv::Mat1s& labels);
-  void describe(const cv::Mat1f& inverse_depth,
-                const Intrinsics& camera,
-                cv::Mat1s& labels,
-                std::vector<PlanarFace>& faces);
-  double sigma(double inverse_depth) const;
-
-  void estimateNoise();
-
-  PlanarFaceParameters parameters_;
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
   double noise_scale_ = 1;
-  int columns_ = 0, rows_ = 0; // grid of cells
-  std::vector<Moments> cells_;
-  std::vector<short> owner_; // region + 1 of each cell
-  std::vector<Seed> seeds_;
-  std::vector<int> queue_, next_;
-  std::vector<Eigen::Vector3d> planes_;
-  std::vector<Moments> sums_;
-  std::vector<float> qualities_;
-  std::vector<float> sigma_table_; // sigma of inverse depth by inverse depth
 };
 
 } // namespace hoist

@@ -1,0 +1,193 @@
+#include "planar_faces_cells.h"
+
+#include <array>
+
+namespace hoist {
+namespace detail {
+namespace {
+
+constexpr int size = CellGrid::size;
+
+// Number of set bits, sum and square sum of their places, for four bits.
+struct BitSums {
+  int n, k, kk;
+};
+
+constexpr std::array<BitSums, 16>
+bitSums()
+{
+  std::array<BitSums, 16> sums{};
+  for (int bits = 0; bits < 16; ++bits)
+    for (int k = 0; k < 4; ++k)
+      if ((bits >> k & 1) != 0) {
+        sums[bits].n += 1;
+        sums[bits].k += k;
+        sums[bits].kk += k * k;
+      }
+  return sums;
+}
+
+constexpr std::array<BitSums, 16> bit_sums = bitSums();
+
+constexpr PositionSums
+positionSums(unsigned measured)
+{
+  PositionSums sums;
+  for (int y = 0; y < size; ++y) {
+    const BitSums& row = bit_sums[measured >> size * y & 15U];
+    sums.n += row.n;
+    sums.u += row.k;
+    sums.uu += row.kk;
+    sums.v += y * row.n;
+    sums.vv += y * y * row.n;
+    sums.uv += y * row.k;
+  }
+  return sums;
+}
+
+constexpr PositionSums of_full = positionSums(CellGrid::full);
+
+} // namespace
+
+PositionSums
+CellGrid::positions(std::uint16_t measured)
+{
+  return measured == full ? of_full : positionSums(measured);
+}
+
+void
+CellGrid::assign(const cv::Mat1f& inverse_depth)
+{
+  columns = inverse_depth.cols / size;
+  rows = inverse_depth.rows / size;
+  stride = columns + 1;
+  const std::size_t count = static_cast<std::size_t>(rows + 2) * stride + 1;
+  measured.assign(count, 0);
+  cells.assign(count, Cell{});
+  const std::size_t width = static_cast<std::size_t>(columns) * size;
+  column_w_.resize(width);
+  column_vw_.resize(width);
+  column_ww_.resize(width);
+  column_measured_.resize(width);
+  for (int row = 0; row < rows; ++row) {
+    sumColumns(inverse_depth, row);
+    for (int column = 0; column < columns; ++column)
+      sumCell(index(column, row), column);
+  }
+}
+
+void
+CellGrid::sumColumns(const cv::Mat1f& image, int row)
+{
+  const float* r0 = image[size * row];
+  const float* r1 = image[size * row + 1];
+  const float* r2 = image[size * row + 2];
+  const float* r3 = image[size * row + 3];
+  double* sw = column_w_.data();
+  double* svw = column_vw_.data();
+  double* sww = column_ww_.data();
+  int* bits = column_measured_.data();
+  const int width = columns * size;
+  for (int u = 0; u < width; ++u) {
+    const double w0 = r0[u], w1 = r1[u], w2 = r2[u], w3 = r3[u];
+    sw[u] = (w0 + w1) + (w2 + w3);
+    svw[u] = w1 + 2 * w2 + 3 * w3;
+    sww[u] = (w0 * w0 + w1 * w1) + (w2 * w2 + w3 * w3);
+  }
+  for (int u = 0; u < width; ++u)
+    bits[u] = (r0[u] > 0 ? 0x1 : 0) | (r1[u] > 0 ? 0x10 : 0) | (r2[u] > 0 ? 0x100 : 0) |
+              (r3[u] > 0 ? 0x1000 : 0);
+}
+
+void
+CellGrid::sumCell(int cell, int column)
+{
+  const int first = column * size;
+  const int* bits = &column_measured_[first];
+  const int found = bits[0] | bits[1] << 1 | bits[2] << 2 | bits[3] << 3;
+  if (found == 0)
+    return;
+  const double* s = &column_w_[first];
+  const double* sv = &column_vw_[first];
+  const double* ss = &column_ww_[first];
+  const double sw = (s[0] + s[1]) + (s[2] + s[3]);
+  const double suw = s[1] + 2 * s[2] + 3 * s[3];
+  const double svw = (sv[0] + sv[1]) + (sv[2] + sv[3]);
+  const double sww = (ss[0] + ss[1]) + (ss[2] + ss[3]);
+  measured[cell] = static_cast<std::uint16_t>(found);
+  double part = 1.0 / (size * size), mu = (size - 1) / 2.0, mv = mu;
+  if (found != full) {
+    const PositionSums p = positionSums(static_cast<unsigned>(found));
+    part = 1.0 / p.n;
+    mu = p.u * part;
+    mv = p.v * part;
+  }
+  const double mw = sw * part;
+  cells[cell] = {static_cast<float>(mw),
+                 static_cast<float>(suw * part - mu * mw),
+                 static_cast<float>(svw * part - mv * mw),
+                 static_cast<float>(sww * part - mw * mw)};
+}
+
+PlaneMoments
+CellGrid::moments(const CellWindow& window) const
+{
+  // positions from the window's first pixel, whole numbers
+  int n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  double sw = 0, suw = 0, svw = 0, sww = 0;
+  for (int y = 0; y < window.height; ++y)
+    for (int x = 0; x < window.width; ++x) {
+      const int at = index(window.column + x, window.row + y);
+      const PositionSums p = positions(measured[at]);
+      const Cell& cell = cells[at];
+      const int fu = x * size, fv = y * size;
+      const int pu = p.u + p.n * fu, pv = p.v + p.n * fv;
+      n += p.n;
+      u += pu;
+      v += pv;
+      uu += p.uu + (p.u + pu) * fu;
+      uv += p.uv + p.u * fv + pv * fu;
+      vv += p.vv + (p.v + pv) * fv;
+      const double w = cell.w;
+      sw += p.n * w;
+      suw += p.n * cell.uw + pu * w;
+      svw += p.n * cell.vw + pv * w;
+      sww += p.n * (cell.ww + w * w);
+    }
+  const double first_u = window.column * size, first_v = window.row * size;
+  PlaneMoments sum;
+  sum.n = n;
+  sum.u = u + n * first_u;
+  sum.v = v + n * first_v;
+  sum.uu = uu + (2 * u + n * first_u) * first_u;
+  sum.uv = uv + u * first_v + (v + n * first_v) * first_u;
+  sum.vv = vv + (2 * v + n * first_v) * first_v;
+  sum.w = sw;
+  sum.uw = suw + first_u * sw;
+  sum.vw = svw + first_v * sw;
+  sum.ww = sww;
+  return sum;
+}
+
+PlaneMoments
+FullCellSums::moments() const
+{
+  // pixel k of cell x lies at size x + k
+  constexpr double s = size, pixels = s * s;
+  constexpr double k = of_full.u, kk = of_full.uu, kl = of_full.uv, mean = k / pixels;
+  PlaneMoments m;
+  m.n = pixels * n;
+  m.u = pixels * s * x + k * n;
+  m.v = pixels * s * y + k * n;
+  m.uu = pixels * s * s * xx + 2 * k * s * x + kk * n;
+  m.uv = pixels * s * s * xy + k * s * (x + y) + kl * n;
+  m.vv = pixels * s * s * yy + 2 * k * s * y + kk * n;
+  m.w = pixels * w;
+  m.uw = pixels * (uw + s * xw + mean * w);
+  m.vw = pixels * (vw + s * yw + mean * w);
+  m.ww = pixels * ww;
+  return m;
+}
+
+} // namespace detail
+} // namespace hoist
