@@ -22,7 +22,7 @@ h1{font-size:1.5rem;margin:0 0 .2rem}h2{font-size:1.15rem;margin:2rem 0 .6rem}
 .facts div{background:#f2f4f7;border-radius:.4rem;padding:.5rem .9rem}
 .facts b{display:block;font-size:1.4rem}
 .bad b{color:#b3261e}
-.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(19rem,1fr));gap:1rem}
+.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(16rem,1fr));gap:1rem}
 svg{width:100%;height:auto;background:#f7f8fa;border-radius:.4rem}
 svg rect{fill:#0072b2}svg line{stroke:#555}
 svg .t{font:600 13px system-ui,sans-serif}svg .a{font:11px system-ui,sans-serif;fill:#444}
