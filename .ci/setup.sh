@@ -13,7 +13,7 @@ hoist_build=$hoist_root/build/release
 hoist_packages=(
   cmake g++ ninja-build pkg-config
   libpcl-dev libopencv-dev libeigen3-dev
-  nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev
+  nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev libsqlite3-dev
 )
 hoist_test_packages=(libgtest-dev python3)
 
