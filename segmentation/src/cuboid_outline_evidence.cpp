@@ -1,6 +1,7 @@
 #include "cuboid_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hoist {
@@ -12,12 +13,14 @@ class OutlineEdge {
 public:
   OutlineEdge(const CuboidView& view,
               const cv::Mat1f& image,
+              const cv::Mat3b& colors,
               const cv::Mat1s& labels,
               const std::vector<PlanarFace>& faces,
               int face,
               int neighbour)
   : view_(view)
   , image_(image)
+  , colors_(colors)
   , labels_(labels)
   , faces_(faces)
   , face_(face)
@@ -71,6 +74,19 @@ public:
     for (int s = 0; s < edge.samples; ++s) {
       local_[along_] = first + length * (s + 0.5) / edge.samples;
       judge(edge);
+    }
+    // Two boxes flush with each other: the surface goes on, its colour does not. Print
+    // has steps too, but hardly in a line with the edge.
+    int in_line = 0;
+    for (int k = 0; k < positions; ++k)
+      in_line = std::max(in_line,
+                         steps_[k] + (k > 0 ? steps_[k - 1] : 0) +
+                             (k + 1 < positions ? steps_[k + 1] : 0));
+    constexpr double min_share = 0.75;
+    constexpr int min_steps = 4;
+    if (in_line >= min_steps && in_line >= min_share * edge.bad) {
+      edge.bad -= in_line;
+      edge.color = in_line;
     }
     return edge;
   }
@@ -135,7 +151,7 @@ private:
   }
 
   void
-  judge(EdgeEvidence& edge) const
+  judge(EdgeEvidence& edge)
   {
     cv::Point at;
     double z = 0, noise = 0;
@@ -153,20 +169,64 @@ private:
       return; // covered, or a surface that rises: says nothing
     if (up < -gate * noise - beyond_ || (up < -gate * noise && isSetBack(at)))
       ++edge.good;
-    else if (!isSupport(at, noise) && !risesFartherOut())
+    else if (!isSupport(at, noise) && !risesFartherOut()) {
       ++edge.bad;
+      const int place = colorStep(at);
+      if (place >= 0)
+        ++steps_[place];
+    }
   }
+
+  // Where the colour changes most across the edge, within the few pixels that colour
+  // and depth may be apart: a place in steps_, -1 where it does not.
+  int
+  colorStep(const cv::Point& at) const
+  {
+    if (colors_.empty())
+      return -1;
+    Eigen::Vector3d on_edge = local_;
+    on_edge[across_] = view_.end(neighbour_);
+    const Eigen::Vector2d q = view_.camera.project(view_.box.axes * on_edge);
+    const Eigen::Vector2d d = (Eigen::Vector2d(at.x, at.y) - q).normalized();
+    std::array<cv::Vec3b, 2 * reach + 1> line;
+    for (int k = -reach; k <= reach; ++k) {
+      const auto u = static_cast<int>(std::lround(q.x() + k * d.x()));
+      const auto v = static_cast<int>(std::lround(q.y() + k * d.y()));
+      if (u < 0 || v < 0 || u >= colors_.cols || v >= colors_.rows)
+        return -1;
+      line[k + reach] = colors_(v, u);
+    }
+    constexpr int min_step = 40; // sum over the channels, of 765
+    int highest = min_step, place = -1;
+    for (int k = 0; k < positions; ++k) {
+      int step = 0;
+      for (int c = 0; c < 3; ++c)
+        step += std::abs(line[k][c] - line[k + step_width][c]);
+      if (step > highest) {
+        highest = step;
+        place = k;
+      }
+    }
+    return place;
+  }
+
+  // The colour is looked at this far to either side of the edge, over this distance
+  // [px].
+  static constexpr int reach = 5, step_width = 2;
+  static constexpr int positions = 2 * reach + 1 - step_width;
 
   const CuboidView& view_;
   const cv::Mat1f& image_;
+  const cv::Mat3b& colors_;
   const cv::Mat1s& labels_;
   const std::vector<PlanarFace>& faces_;
   int face_, neighbour_, across_, along_;
   Eigen::Vector3d normal_; // outward
   double offset_;          // normal . x on the face [m]
   Eigen::Vector3d face_center_;
-  Eigen::Vector3d local_; // the sample, in the box's axes
-  double beyond_ = 0;     // distance of the samples from the edge [m]
+  Eigen::Vector3d local_;              // the sample, in the box's axes
+  std::array<int, positions> steps_{}; // bad samples by where the colour changes
+  double beyond_ = 0;                  // distance of the samples from the edge [m]
 };
 
 } // namespace
@@ -174,6 +234,7 @@ private:
 void
 collectOutlineEvidence(const CuboidView& view,
                        const cv::Mat1f& inverse_depth,
+                       const cv::Mat3b& colors,
                        const cv::Mat1s& labels,
                        const std::vector<PlanarFace>& faces,
                        int max_samples,
@@ -190,7 +251,7 @@ collectOutlineEvidence(const CuboidView& view,
       const int neighbour = view.hidden[m];
       if (neighbour / 2 == face / 2)
         continue;
-      OutlineEdge edge(view, inverse_depth, labels, faces, face, neighbour);
+      OutlineEdge edge(view, inverse_depth, colors, labels, faces, face, neighbour);
       if (edge.place())
         evidence.edges.push_back(edge.sample(max_samples));
     }

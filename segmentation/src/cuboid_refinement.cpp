@@ -261,7 +261,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
       double prior = 1.0; // [m]
       if (h.ends[f] == EndSource::support)
         prior = noise;
-      else if (h.ends[f] == EndSource::seen)
+      else if (h.ends[f] != EndSource::bound)
         prior = 4 * pixel + noise;
       normal(3 + f, 3 + f) += 1 / (prior * prior);
       gradient[3 + f] += (ends[3 + f] - start[3 + f]) / (prior * prior);

@@ -46,7 +46,7 @@ selectCuboids(const std::vector<CuboidCandidate>& candidates,
   std::vector<double> value(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const CuboidEvidence& e = candidates[i].evidence;
-    value[i] = e.score * e.supported() * e.stride * e.stride;
+    value[i] = e.value();
     if (e.score >= min_score)
       order.push_back(static_cast<int>(i));
   }

@@ -25,6 +25,8 @@ trust(EndSource end)
     return 1.0;
   case EndSource::support:
     return 0.95;
+  case EndSource::contact:
+    return 0.92;
   case EndSource::bound:
     break;
   }
@@ -48,6 +50,7 @@ certainty(const FaceEvidence& e, int stride, double longest_side)
 void
 verifyCuboid(const CuboidHypothesis& h,
              const cv::Mat1f& inverse_depth,
+             const cv::Mat3b& colors,
              const cv::Mat1s& labels,
              const std::vector<PlanarFace>& faces,
              const Intrinsics& camera,
@@ -64,7 +67,7 @@ verifyCuboid(const CuboidHypothesis& h,
   detail::collectFaceEvidence(view, inverse_depth, max_samples, evidence);
   const int edge_samples = std::max(10, std::min(40, max_samples / 60));
   detail::collectOutlineEvidence(
-      view, inverse_depth, labels, faces, edge_samples, evidence);
+      view, inverse_depth, colors, labels, faces, edge_samples, evidence);
 
   // Faces: the share of what is not covered that lies where it should, weighted by
   // area.
@@ -100,8 +103,10 @@ verifyCuboid(const CuboidHypothesis& h,
   evidence.flat = flat / area;
   evidence.outline = good / (good + bad);
   double product = std::pow(evidence.flat, 3) * evidence.outline * (1 - excess);
+  evidence.trust = 1;
   for (const EndSource end : h.ends)
-    product *= trust(end);
+    evidence.trust *= trust(end);
+  product *= evidence.trust;
   if (observed < 2)
     product *= 0.5; // one face: the third dimension is a guess
   evidence.score = calibrated(product);

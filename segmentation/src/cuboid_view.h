@@ -86,6 +86,7 @@ void collectFaceEvidence(const CuboidView& view,
 /** \brief Fills edges of the evidence. */
 void collectOutlineEvidence(const CuboidView& view,
                             const cv::Mat1f& inverse_depth,
+                            const cv::Mat3b& colors,
                             const cv::Mat1s& labels,
                             const std::vector<PlanarFace>& faces,
                             int max_samples,

@@ -48,7 +48,10 @@ toCuboid(const CuboidCandidate& candidate)
   for (int i = 0; i < 3; ++i) {
     const EndSource a = h.ends[2 * i], b = h.ends[2 * i + 1];
     c.dimension_source[i] = DimensionSource::measured;
-    if (a == EndSource::bound || b == EndSource::bound) {
+    const auto open = [](EndSource end) {
+      return end == EndSource::bound || end == EndSource::contact;
+    };
+    if (open(a) || open(b)) {
       c.dimension_source[i] = DimensionSource::partial;
       c.size_sigma[i] = std::numeric_limits<double>::quiet_NaN();
     }
@@ -66,20 +69,6 @@ toCuboid(const CuboidCandidate& candidate)
                    candidate.evidence.support.end());
   canonicalize(c);
   return c;
-}
-
-// Supporting pixels, sampled or not.
-double
-pixels(const CuboidEvidence& e)
-{
-  return static_cast<double>(e.supported()) * e.stride * e.stride;
-}
-
-// What selectCuboids() weighs.
-double
-value(const CuboidEvidence& e)
-{
-  return e.score * pixels(e);
 }
 
 // Boxes that differ by less than refinement moves them, whatever their axes are called,
@@ -148,12 +137,13 @@ FullMode::segment(const FrameImages& images,
                        hypothesis_parameters,
                        w.hypotheses,
                        diagnostics);
-  extendToSupport(w.faces, hypothesis_parameters, w.hypotheses);
+  extendToSupport(w.faces, w.borders, hypothesis_parameters, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 
   const auto verify = [&](CuboidCandidate& c, int max_samples) {
     verifyCuboid(c.hypothesis,
                  images.inverse_depth,
+                 images.bgr,
                  w.labels,
                  w.faces,
                  images.intrinsics,
@@ -181,8 +171,8 @@ FullMode::segment(const FrameImages& images,
   }
   std::sort(w.order.begin(), w.order.end(), [&](int a, int b) {
     const CuboidEvidence &ea = w.candidates[a].evidence, &eb = w.candidates[b].evidence;
-    const double va = ea.flat * ea.outline * pixels(ea);
-    const double vb = eb.flat * eb.outline * pixels(eb);
+    const double va = ea.flat * ea.outline * ea.pixels();
+    const double vb = eb.flat * eb.outline * eb.pixels();
     return va > vb || (va == vb && a < b);
   });
   w.done.clear();
@@ -197,7 +187,7 @@ FullMode::segment(const FrameImages& images,
     // It shares its room with a box that explains more than it ever could.
     const auto beaten = [&](int k) {
       const CuboidCandidate& other = w.candidates[k];
-      return value(other.evidence) > pixels(c.evidence) &&
+      return other.evidence.value() > c.evidence.pixels() &&
              excludeEachOther(other.hypothesis, c.hypothesis);
     };
     if (std::any_of(w.done.begin(), w.done.end(), beaten)) {

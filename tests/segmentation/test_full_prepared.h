@@ -62,6 +62,7 @@ struct Prepared {
     CuboidEvidence evidence;
     verifyCuboid(h,
                  frame.images.inverse_depth,
+                 frame.images.bgr,
                  labels,
                  faces,
                  frame.images.intrinsics,

@@ -14,9 +14,11 @@ namespace hoist {
 
 /** \brief How the end of a box along an axis is known. */
 enum class EndSource : unsigned char {
-  bound,  ///< something covers it; the box reaches at least that far
-  seen,   ///< outline, crease or plane
-  support ///< covered; taken from the surface it stands on or leans against
+  bound,   ///< something covers it; the box reaches at least that far
+  seen,    ///< outline, crease or plane
+  contact, ///< something that does not carry the box touches it there; it may go on
+           ///< behind that
+  support  ///< covered; taken from the surface it stands on or leans against
 };
 
 /** \brief A box that may be there. Camera frame, metres.
@@ -29,6 +31,8 @@ struct CuboidHypothesis {
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   /// How each end is known: lower 0, upper 0, lower 1, ...
   std::array<EndSource, 6> ends{};
+  /// Faces that touch the box from in front at its ends, -1 where none.
+  std::array<int, 6> contacts{-1, -1, -1, -1, -1, -1};
   std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
   CuboidModel model = CuboidModel::faces;
 
@@ -76,6 +80,7 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
  */
 HOIST_SEGMENTATION_EXPORT void
 extendToSupport(const std::vector<PlanarFace>& faces,
+                const FaceBorders& borders,
                 const CuboidHypothesisParameters& parameters,
                 std::vector<CuboidHypothesis>& hypotheses);
 

@@ -29,6 +29,7 @@ struct EdgeEvidence {
   int samples = 0;   ///< along the edge
   int good = 0;      ///< the surface ends in a step
   int bad = 0;       ///< it goes on beyond the box or bends away slowly
+  int color = 0;     ///< it goes on in another colour: says nothing
 };
 
 /** \brief What the frame says of a cuboid. */
@@ -39,6 +40,7 @@ struct CuboidEvidence {
   double flat = 0;          ///< share of the uncovered area that lies on the faces
   double outline = 0;       ///< share of the outline where the surface ends
   double score = 0;         ///< in [0, 1]
+  double trust = 0;         ///< how well the ends are known, in [0, 1]
   int stride = 1;           ///< one pixel in stride x stride was looked at
   std::vector<int> support; ///< supporting pixels, indices into the frame
 
@@ -50,8 +52,24 @@ struct CuboidEvidence {
     visible = {};
     edges.clear();
     support.clear();
-    flat = outline = score = 0;
+    flat = outline = score = trust = 0;
     stride = 1;
+  }
+
+  /// Supporting pixels, whether looked at or not.
+  double
+  pixels() const
+  {
+    return static_cast<double>(supported()) * stride * stride;
+  }
+
+  /// What a choice among boxes weighs: the pixels it explains by the chance of being
+  /// right; where two explain the same, the one that invents less.
+  double
+  value() const
+  {
+    const double known = trust * trust;
+    return score * known * known * pixels();
   }
 
   int
@@ -68,6 +86,7 @@ struct CuboidEvidence {
  *  occluded or contradiction.
  *
  * \param hypothesis the box, in front of the camera
+ * \param colors same size as the depth, or empty
  * \param labels number of the face + 1 at each pixel, 0 where none
  * \param faces the faces that labels speaks of
  * \param max_samples the stride is chosen so that about this many pixels are looked at
@@ -75,6 +94,7 @@ struct CuboidEvidence {
  */
 HOIST_SEGMENTATION_EXPORT void verifyCuboid(const CuboidHypothesis& hypothesis,
                                             const cv::Mat1f& inverse_depth,
+                                            const cv::Mat3b& colors,
                                             const cv::Mat1s& labels,
                                             const std::vector<PlanarFace>& faces,
                                             const Intrinsics& camera,

@@ -1,0 +1,128 @@
+#include <hoist/segmentation/cuboid_hypotheses.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace hoist {
+namespace {
+
+// The rectangle in its plane that a face fills: what stands on the face stands inside.
+struct Extent {
+  Eigen::Vector3d axes[2];
+  double lower[2], upper[2]; // coordinates along the axes [m]
+
+  Extent(const PlanarFace& face, const BorderElement* first, const BorderElement* last)
+  {
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const BorderElement* e = first; e != last; ++e) {
+      const Eigen::Vector3d d = e->point.cast<double>() - face.centroid;
+      scatter += d * d.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+    for (int k = 0; k < 2; ++k) {
+      axes[k] = solver.eigenvectors().col(2 - k);
+      lower[k] = upper[k] = axes[k].dot(face.centroid);
+      const Eigen::Vector3f axis = axes[k].cast<float>();
+      for (const BorderElement* e = first; e != last; ++e) {
+        const double t = axis.dot(e->point);
+        lower[k] = std::min(lower[k], t);
+        upper[k] = std::max(upper[k], t);
+      }
+    }
+  }
+
+  bool
+  contains(const Eigen::Vector3d& point, double margin) const
+  {
+    for (int k = 0; k < 2; ++k) {
+      const double t = axes[k].dot(point);
+      if (t < lower[k] - margin || t > upper[k] + margin)
+        return false;
+    }
+    return true;
+  }
+};
+
+// The middle of an end of a box.
+Eigen::Vector3d
+middleOf(const CuboidHypothesis& h, int f)
+{
+  Eigen::Vector3d local = (h.lower + h.upper) / 2;
+  local[f / 2] = f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
+  return h.axes * local;
+}
+
+Eigen::Vector3d
+outwardOf(const CuboidHypothesis& h, int f)
+{
+  return (f % 2 == 0 ? -1.0 : 1.0) * h.axes.col(f / 2);
+}
+
+} // namespace
+
+void
+extendToSupport(const std::vector<PlanarFace>& faces,
+                const FaceBorders& borders,
+                const CuboidHypothesisParameters& parameters,
+                std::vector<CuboidHypothesis>& hypotheses)
+{
+  std::vector<std::optional<Extent>> extents(faces.size());
+  const auto extentOf = [&](std::size_t g) -> const Extent& {
+    if (!extents[g]) {
+      const BorderElement* elements = borders.elements.data();
+      extents[g].emplace(
+          faces[g], elements + borders.first[g], elements + borders.first[g + 1]);
+    }
+    return *extents[g];
+  };
+  constexpr double margin_share = 0.25; // its own foot may hide where the surface ends
+  // What touches a box at its end carries it if the box is over it; then it ends there.
+  for (CuboidHypothesis& h : hypotheses)
+    for (int f = 0; f < 6; ++f) {
+      if (h.ends[f] != EndSource::contact)
+        continue;
+      constexpr double max_cosine = -0.7;
+      const std::size_t k = h.contacts[f];
+      if (outwardOf(h, f).dot(faces[k].normal) < max_cosine &&
+          extentOf(k).contains(middleOf(h, f), margin_share * h.size().maxCoeff()))
+        h.ends[f] = EndSource::seen;
+    }
+  const std::size_t n = hypotheses.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (int f = 0; f < 6; ++f) {
+      const CuboidHypothesis h = hypotheses[i];
+      if (h.ends[f] != EndSource::bound && h.ends[f] != EndSource::contact)
+        continue;
+      const Eigen::Vector3d outward = outwardOf(h, f), end = middleOf(h, f);
+      const double sigma = parameters.sensor.sigmaZ(end.z());
+      const double reach = 2 * h.size().norm(); // more hidden than seen is too bold
+      const double margin = margin_share * h.size().maxCoeff();
+      double nearest = reach;
+      for (std::size_t k = 0; k < faces.size(); ++k) {
+        const PlanarFace& g = faces[k];
+        constexpr double max_cosine = -0.98; // looks back at the box
+        if (outward.dot(g.normal) > max_cosine)
+          continue;
+        const double distance = -(g.normal.dot(end) + g.offset) / g.normal.dot(outward);
+        if (distance < 2 * sigma || distance >= nearest)
+          continue;
+        if (extentOf(k).contains(end + distance * outward, margin))
+          nearest = distance;
+      }
+      if (nearest >= reach)
+        continue;
+      CuboidHypothesis longer = h;
+      if (f % 2 == 0)
+        longer.lower[f / 2] -= nearest;
+      else
+        longer.upper[f / 2] += nearest;
+      longer.ends[f] = EndSource::support;
+      if (longer.size().maxCoeff() <= parameters.max_side)
+        hypotheses.push_back(longer);
+    }
+}
+
+} // namespace hoist
