@@ -1,9 +1,20 @@
 #include <hoist/segmentation/face_borders.h>
 
+#include "planar_faces_marks.h"
+#include "planar_faces_moments.h"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace hoist {
 namespace {
+
+using Side = FaceBorders::Side;
+
+constexpr std::array<std::array<int, 2>, 4> steps = {
+    {{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 // What lies beyond a side of a face.
 struct Beyond {
@@ -11,79 +22,209 @@ struct Beyond {
   short neighbour = -1;
 };
 
-struct Walker {
-  const cv::Mat1s& labels;
-  const cv::Mat1f& image;
-  const cv::Mat1b& mask;
-  const SensorModel& sensor;
-  const std::vector<PlanarFace>& faces;
+class Walker {
+public:
+  Walker(const cv::Mat1s& labels,
+         const cv::Mat1f& image,
+         const cv::Mat1b& mask,
+         const SensorModel& sensor,
+         const std::vector<PlanarFace>& faces)
+  : labels_(labels)
+  , image_(image)
+  , mask_(mask)
+  , noise_(detail::InverseDepthNoise(sensor) * 4.0) // gate of 4 sigma
+  , faces_(faces)
+  {
+    const std::ptrdiff_t row = labels.step1(), image_row = image.step1();
+    label_steps_ = {-1, 1, -row, row};
+    image_steps_ = {-1, 1, -image_row, image_row};
+    if (!mask.empty()) {
+      const std::ptrdiff_t mask_row = mask.step1();
+      mask_steps_ = {-1, 1, -mask_row, mask_row};
+    }
+  }
+
+  // Walks from (u, v) until something is known.
+  Beyond
+  look(int face, int u, int v, int direction) const
+  {
+    const std::array<int, 4> room = {u, labels_.cols - 1 - u, v, labels_.rows - 1 - v};
+    const short* label = labels_[v] + u;
+    const float* depth = image_[v] + u;
+    const unsigned char* use = mask_.empty() ? nullptr : mask_[v] + u;
+    const std::ptrdiff_t label_step = label_steps_[direction],
+                         image_step = image_steps_[direction],
+                         mask_step = mask_steps_[direction];
+    int fringe = 0;
+    float last = 0; // an unlabelled measurement on the way
+    const int end = std::min(max_hole, room[direction]);
+    for (int k = 1; k <= end; ++k) {
+      label += label_step;
+      depth += image_step;
+      if (use != nullptr && *(use += mask_step) == 0)
+        return {k == 1 ? BorderKind::cut : BorderKind::open, -1};
+      if (*label != 0)
+        return meet(face, *label - 1, u, v, direction, k, *depth);
+      if (*depth > 0) {
+        last = *depth;
+        if (++fringe >= max_fringe)
+          return compare(face, u, v, direction, last);
+      }
+    }
+    if (end < max_hole) // the image ends
+      return {end == 0 ? BorderKind::cut : BorderKind::open, -1};
+    return last > 0 ? compare(face, u, v, direction, last) : Beyond{};
+  }
+
+private:
+  static constexpr int max_fringe = 4; // unlabelled pixels at a border [px]
+  static constexpr int max_hole = 64;  // run without measurement [px]
 
   double
   plane(int face, double u, double v) const
   {
-    const Eigen::Vector3d& p = faces[face].inverse_depth;
+    const Eigen::Vector3d& p = faces_[face].inverse_depth;
     return p[0] * u + p[1] * v + p[2];
   }
 
-  bool
-  inside(int u, int v) const
-  {
-    return u >= 0 && v >= 0 && u < labels.cols && v < labels.rows &&
-           (mask.empty() || mask(v, u) != 0);
-  }
-
-  // Walks from (u, v) in steps (du, dv) until something is known.
+  // Another face k pixels away, where \a w was measured.
   Beyond
-  look(int face, int u, int v, int du, int dv) const
+  meet(int face, int other, int u, int v, int direction, int k, float w) const
   {
-    constexpr int max_fringe = 4; // unlabelled pixels at a border [px]
-    constexpr int max_hole = 64;  // run without measurement [px]
+    const auto neighbour = static_cast<short>(other);
+    if (other == face)
+      return {BorderKind::cut, neighbour};
+    const double du = steps[direction][0], dv = steps[direction][1];
     const double su = u + 0.5 * du, sv = v + 0.5 * dv;
     const double own = plane(face, su, sv);
-    const double z = 1 / own;
-    const double sigma = sensor.sigmaZ(z) * own * own;
-    const double gate = 4 * sigma;
-    int fringe = 0;
-    float last = 0; // an unlabelled measurement on the way
-    for (int k = 1; k <= max_hole; ++k) {
-      const int x = u + k * du, y = v + k * dv;
-      if (!inside(x, y))
-        return {k == 1 ? BorderKind::cut : BorderKind::open, -1};
-      const float w = image(y, x);
-      const short label = labels(y, x);
-      if (label != 0) {
-        const int other = label - 1;
-        if (other == face)
-          return {BorderKind::cut, static_cast<short>(face)};
-        // across a gap the other surface is carried back to the border
-        const double there = k <= max_fringe + 1 ? plane(other, su, sv) : w;
-        const double here = k <= max_fringe + 1 ? own : plane(face, x, y);
-        // one pixel beside the crease they disagree by the difference of their slopes
-        const Eigen::Vector3d turn =
-            faces[face].inverse_depth - faces[other].inverse_depth;
-        const double slope = k <= max_fringe + 1 ? std::hypot(turn.x(), turn.y()) : 0.0;
-        BorderKind kind = BorderKind::crease;
-        if (there < here - gate - slope)
-          kind = BorderKind::jump;
-        else if (there > here + gate + slope)
-          kind = BorderKind::occluded;
-        return {kind, static_cast<short>(other)};
-      }
-      if (w > 0) {
-        last = w;
-        if (++fringe >= max_fringe)
-          break;
-      }
+    double there = w, here = own, gate = noise_(own);
+    if (k <= max_fringe + 1) {
+      // carried back to the border; one pixel beside the crease they disagree by the
+      // difference of their slopes
+      there = plane(other, su, sv);
+      const Eigen::Vector3d& p = faces_[face].inverse_depth;
+      const Eigen::Vector3d& q = faces_[other].inverse_depth;
+      gate += std::sqrt((p.head<2>() - q.head<2>()).squaredNorm());
     }
-    if (last > 0) {
-      if (last < own - gate)
-        return {BorderKind::jump, -1};
-      if (last > own + gate)
-        return {BorderKind::occluded, -1};
-      return {BorderKind::crease, -1};
-    }
-    return {BorderKind::open, -1};
+    else // across a gap
+      here = plane(face, u + k * du, v + k * dv);
+    if (there < here - gate)
+      return {BorderKind::jump, neighbour};
+    if (there > here + gate)
+      return {BorderKind::occluded, neighbour};
+    return {BorderKind::crease, neighbour};
   }
+
+  // A measurement without a face.
+  Beyond
+  compare(int face, int u, int v, int direction, float w) const
+  {
+    const double own =
+        plane(face, u + 0.5 * steps[direction][0], v + 0.5 * steps[direction][1]);
+    const double gate = noise_(own);
+    if (w < own - gate)
+      return {BorderKind::jump, -1};
+    if (w > own + gate)
+      return {BorderKind::occluded, -1};
+    return {BorderKind::crease, -1};
+  }
+
+  const cv::Mat1s& labels_;
+  const cv::Mat1f& image_;
+  const cv::Mat1b& mask_;
+  const detail::InverseDepthNoise noise_;
+  const std::vector<PlanarFace>& faces_;
+  std::array<std::ptrdiff_t, 4> label_steps_{}, image_steps_{}, mask_steps_{};
+};
+
+// Marks the pixels of a row that have a face and a neighbour without it.
+void
+markRow(const cv::Mat1s& labels, int v, std::vector<short>& marks)
+{
+  const int width = labels.cols;
+  const short* here = labels[v];
+  short* mark = marks.data();
+  if (v == 0 || v + 1 == labels.rows) {
+    std::copy(here, here + width, mark);
+    return;
+  }
+  const short *up = labels[v - 1], *down = labels[v + 1];
+  for (int u = 1; u + 1 < width; ++u) {
+    const short own = here[u];
+    const short other =
+        (own ^ here[u - 1]) | (own ^ here[u + 1]) | (own ^ up[u]) | (own ^ down[u]);
+    mark[u] = own != 0 ? other : short{0};
+  }
+  mark[0] = here[0];
+  mark[width - 1] = here[width - 1];
+}
+
+void
+collectSides(const cv::Mat1s& labels, const Walker& walker, FaceBorders& borders)
+{
+  const int width = labels.cols, height = labels.rows;
+  const auto row = static_cast<std::ptrdiff_t>(labels.step1());
+  borders.sides.clear();
+  detail::resizeMarks(borders.marks, width);
+  for (int v = 0; v < height; ++v) {
+    markRow(labels, v, borders.marks);
+    const short* here = labels[v];
+    detail::forEachMark(borders.marks, width, [&](int u) {
+      const short* label = here + u;
+      const auto look = [&](unsigned char direction) {
+        const int face = *label - 1;
+        const Beyond beyond = walker.look(face, u, v, direction);
+        if (beyond.neighbour == face)
+          return; // a hole, no border
+        borders.sides.push_back(
+            {u, v, direction, beyond.kind, static_cast<short>(face), beyond.neighbour});
+        ++borders.first[*label];
+      };
+      if (u == 0 || label[-1] != *label)
+        look(0);
+      if (u + 1 == width || label[1] != *label)
+        look(1);
+      if (v == 0 || label[-row] != *label)
+        look(2);
+      if (v + 1 == height || label[row] != *label)
+        look(3);
+    });
+  }
+}
+
+// A side's place and direction on its face's plane.
+class Lift {
+public:
+  explicit Lift(const Intrinsics& camera)
+  : cx_(camera.cx), cy_(camera.cy), fx_(1 / camera.fx), fy_(1 / camera.fy)
+  {
+  }
+
+  void
+  operator()(const Side& side, const PlanarFace& face, BorderElement& e) const
+  {
+    const int du = steps[side.direction][0], dv = steps[side.direction][1];
+    const double u = side.u + 0.5 * du, v = side.v + 0.5 * dv;
+    const Eigen::Vector3d& p = face.inverse_depth;
+    const double w = p[0] * u + p[1] * v + p[2], z = 1 / w;
+    const double x = (u - cx_) * fx_, y = (v - cy_) * fy_;
+    // the derivative of (x, y, 1) / w along the step, times w^2
+    const double slope = p[0] * du + p[1] * dv;
+    const double dx = du * fx_ * w - x * slope, dy = dv * fy_ * w - y * slope;
+    const double unit = 1 / std::sqrt(dx * dx + dy * dy + slope * slope);
+    e.pixel = {static_cast<float>(u), static_cast<float>(v)};
+    e.point = {
+        static_cast<float>(x * z), static_cast<float>(y * z), static_cast<float>(z)};
+    e.outward = {static_cast<float>(dx * unit),
+                 static_cast<float>(dy * unit),
+                 static_cast<float>(-slope * unit)};
+    e.kind = side.kind;
+    e.face = side.face;
+    e.neighbour = side.neighbour;
+  }
+
+private:
+  double cx_, cy_, fx_, fy_; // the last two inverted
 };
 
 } // namespace
@@ -97,52 +238,16 @@ findFaceBorders(const cv::Mat1s& labels,
                 const std::vector<PlanarFace>& faces,
                 FaceBorders& borders)
 {
-  const Walker walker{labels, inverse_depth, mask, sensor, faces};
-  const int width = labels.cols, height = labels.rows;
-  const auto n = static_cast<int>(faces.size());
-  const auto at = [&](int u, int v) -> short {
-    return u < 0 || v < 0 || u >= width || v >= height ? 0 : labels(v, u);
-  };
-  constexpr int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-
   // Collected in one walk, then laid out face by face without sorting.
-  borders.first.assign(n + 1, 0);
-  borders.found.clear();
-  for (int v = 0; v < height; ++v) {
-    const short* row = labels[v];
-    for (int u = 0; u < width; ++u) {
-      const short label = row[u];
-      if (label == 0)
-        continue;
-      for (const auto& s : steps) {
-        if (at(u + s[0], v + s[1]) == label)
-          continue;
-        const int face = label - 1;
-        const Beyond beyond = walker.look(face, u, v, s[0], s[1]);
-        if (beyond.neighbour == face)
-          continue; // a hole, no border
-        const double x = u + 0.5 * s[0], y = v + 0.5 * s[1];
-        const Eigen::Vector3d p = camera.ray(x, y) / walker.plane(face, x, y);
-        const double x2 = x + s[0], y2 = y + s[1];
-        const Eigen::Vector3d q = camera.ray(x2, y2) / walker.plane(face, x2, y2);
-        BorderElement e;
-        e.pixel = {static_cast<float>(x), static_cast<float>(y)};
-        e.point = p.cast<float>();
-        e.outward = (q - p).normalized().cast<float>();
-        e.kind = beyond.kind;
-        e.face = static_cast<short>(face);
-        e.neighbour = beyond.neighbour;
-        borders.found.push_back(e);
-        ++borders.first[label];
-      }
-    }
-  }
-  for (int i = 0; i < n; ++i)
+  borders.first.assign(faces.size() + 1, 0);
+  collectSides(labels, Walker(labels, inverse_depth, mask, sensor, faces), borders);
+  for (std::size_t i = 0; i < faces.size(); ++i)
     borders.first[i + 1] += borders.first[i];
-  borders.elements.resize(borders.found.size());
+  borders.elements.resize(borders.sides.size());
   borders.next.assign(borders.first.begin(), borders.first.end() - 1);
-  for (const BorderElement& e : borders.found)
-    borders.elements[borders.next[e.face]++] = e;
+  const Lift lift(camera);
+  for (const Side& side : borders.sides)
+    lift(side, faces[side.face], borders.elements[borders.next[side.face]++]);
 }
 
 } // namespace hoist

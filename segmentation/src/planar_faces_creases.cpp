@@ -1,5 +1,7 @@
 #include "planar_faces_pixels.h"
 
+#include "planar_faces_marks.h"
+
 namespace hoist {
 namespace detail {
 
@@ -32,7 +34,7 @@ PixelLabels::moveCreases(const cv::Mat1f& image)
                         differs(up[u], own) | differs(down[u], own);
       mark[u] = own > 0 ? any : short{0};
     }
-    marks_.forEach([&](int u) {
+    forEachMark(marks_, width_, [&](int u) {
       if (settle(image, {u, v})) {
         next_.push_back({u, v});
         if (u + 1 < width_)

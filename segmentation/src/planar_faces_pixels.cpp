@@ -1,5 +1,7 @@
 #include "planar_faces_pixels.h"
 
+#include "planar_faces_marks.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -20,7 +22,7 @@ PixelLabels::assign(const cv::Mat1f& image,
   for (int v = 0; v <= height_; ++v)
     row(v)[-1] = closed;
   std::fill_n(row(height_), stride(), closed);
-  marks_.resize(width_);
+  resizeMarks(marks_, width_);
 
   planes_.resize(regions.planes.size() + 1);
   planes_[0] = {0, 0, std::numeric_limits<float>::max(), 0};
@@ -97,7 +99,7 @@ PixelLabels::findFringe()
       const short above = std::max(up[u], down[u]);
       mark[u] = here[u] == 0 && std::max(beside, above) > 0 ? 1 : 0;
     }
-    marks_.forEach([&](int u) { queue_.push_back({u, v}); });
+    forEachMark(marks_, width_, [&](int u) { queue_.push_back({u, v}); });
   }
 }
 

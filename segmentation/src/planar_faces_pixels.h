@@ -1,6 +1,5 @@
 #pragma once
 
-#include "planar_faces_marks.h"
 #include "planar_faces_regions.h"
 
 #include <opencv2/core.hpp>
@@ -130,7 +129,7 @@ private:
   std::vector<short> labels_;
   std::vector<Plane> planes_; // by label; 0 fits nothing
   Limit limit_{};
-  RowMarks marks_; // pixels of a row to look at
+  std::vector<short> marks_; // pixels of a row to look at
   std::vector<Pixel> queue_, next_;
 };
 

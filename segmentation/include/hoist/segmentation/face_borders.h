@@ -35,8 +35,16 @@ struct FaceBorders {
   std::vector<BorderElement> elements;
   std::vector<int> first; ///< #faces + 1
 
-  std::vector<BorderElement> found; ///< scratch: in the order of the image
-  std::vector<int> next;            ///< scratch: #faces
+  /// A pixel's side on an outline, before its place in space is known.
+  struct Side {
+    int u, v;
+    unsigned char direction; // left, right, up, down
+    BorderKind kind;
+    short face, neighbour;
+  };
+  std::vector<Side> sides;  ///< scratch: in the order of the image
+  std::vector<int> next;    ///< scratch: #faces
+  std::vector<short> marks; ///< scratch: pixels of a row to look at
 };
 
 /** \brief Walks the label image once and says for every pixel side on a face's outline
