@@ -132,40 +132,37 @@ CellGrid::sumCell(int cell, int column)
 PlaneMoments
 CellGrid::moments(const CellWindow& window) const
 {
-  // positions from the window's first pixel, whole numbers
-  int n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
-  double sw = 0, suw = 0, svw = 0, sww = 0;
-  for (int y = 0; y < window.height; ++y)
-    for (int x = 0; x < window.width; ++x) {
-      const int at = index(window.column + x, window.row + y);
-      const PositionSums p = positions(measured[at]);
-      const Cell& cell = cells[at];
-      const int fu = x * size, fv = y * size;
-      const int pu = p.u + p.n * fu, pv = p.v + p.n * fv;
-      n += p.n;
-      u += pu;
-      v += pv;
-      uu += p.uu + (p.u + pu) * fu;
-      uv += p.uv + p.u * fv + pv * fu;
-      vv += p.vv + (p.v + pv) * fv;
-      const double w = cell.w;
-      sw += p.n * w;
-      suw += p.n * cell.uw + pu * w;
-      svw += p.n * cell.vw + pv * w;
-      sww += p.n * (cell.ww + w * w);
-    }
-  const double first_u = window.column * size, first_v = window.row * size;
+  FullCellSums whole;
   PlaneMoments sum;
-  sum.n = n;
-  sum.u = u + n * first_u;
-  sum.v = v + n * first_v;
-  sum.uu = uu + (2 * u + n * first_u) * first_u;
-  sum.uv = uv + u * first_v + (v + n * first_v) * first_u;
-  sum.vv = vv + (2 * v + n * first_v) * first_v;
-  sum.w = sw;
-  sum.uw = suw + first_u * sw;
-  sum.vw = svw + first_v * sw;
-  sum.ww = sww;
+  for (int y = window.row; y < window.row + window.height; ++y)
+    for (int x = window.column; x < window.column + window.width; ++x) {
+      const int cell = index(x, y);
+      if (isFull(cell))
+        whole.add(cells[cell], x, y);
+      else if (measured[cell] != 0)
+        sum += moments(cells[cell], positions(measured[cell]), x, y);
+    }
+  if (whole.n > 0)
+    sum += whole.moments();
+  return sum;
+}
+
+PlaneMoments
+CellGrid::moments(const Cell& cell, const PositionSums& p, int column, int row)
+{
+  const double u = column * size, v = row * size;
+  const double pu = p.u + p.n * u, pv = p.v + p.n * v, w = cell.w;
+  PlaneMoments sum;
+  sum.n = p.n;
+  sum.u = pu;
+  sum.v = pv;
+  sum.uu = p.uu + (p.u + pu) * u;
+  sum.uv = p.uv + p.u * v + pv * u;
+  sum.vv = p.vv + (p.v + pv) * v;
+  sum.w = p.n * w;
+  sum.uw = p.n * static_cast<double>(cell.uw) + pu * w;
+  sum.vw = p.n * static_cast<double>(cell.vw) + pv * w;
+  sum.ww = p.n * (cell.ww + w * w);
   return sum;
 }
 

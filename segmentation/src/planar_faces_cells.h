@@ -51,10 +51,23 @@ struct CellGrid {
     return (row + 1) * stride + column + 1;
   }
 
+  /** \brief For any pattern of measured pixels; slow beside the constants of a full
+   * cell. */
   static PositionSums positions(std::uint16_t measured);
+
+  bool
+  isFull(int cell) const
+  {
+    return measured[cell] == full;
+  }
 
   /** \brief Sums over a window, in image coordinates. */
   PlaneMoments moments(const CellWindow& window) const;
+
+  /** \brief Sums over pixels of one cell, in image coordinates.
+   *  \param cell mean and products of those pixels */
+  static PlaneMoments
+  moments(const Cell& cell, const PositionSums& positions, int column, int row);
 
 private:
   void sumColumns(const cv::Mat1f& inverse_depth, int row);

@@ -103,6 +103,70 @@ FaceDescriber::sumPixels(const cv::Mat1f& image,
   }
 }
 
+// A cell that several faces share, or that is not labelled throughout.
+void
+FaceDescriber::sumMixedCell(const cv::Mat1f& image,
+                            const PixelLabels& pixels,
+                            int column,
+                            int row)
+{
+  constexpr int size = CellGrid::size;
+  const int left = size * column, top = size * row;
+  unsigned open = CellGrid::full; // pixels that nobody has asked for yet
+  for (int first = 0; first < size * size; ++first) {
+    const short label = pixels.row(top + first / size)[left + first % size];
+    if ((open >> first & 1U) == 0 || label <= 0)
+      continue;
+    unsigned found = 0;
+    std::array<double, size> w{}, vw{}, ww{};
+    for (int y = 0; y < size; ++y) {
+      const short* labels = pixels.row(top + y) + left;
+      const float* depth = image[top + y] + left;
+      for (int x = 0; x < size; ++x) {
+        const bool same = labels[x] == label;
+        const double d = same ? static_cast<double>(depth[x]) : 0.0;
+        found |= static_cast<unsigned>(same) << (size * y + x);
+        w[x] += d;
+        vw[x] += y * d;
+        ww[x] += d * d;
+      }
+    }
+    open &= ~found;
+    const PositionSums p = CellGrid::positions(static_cast<std::uint16_t>(found));
+    const double sum_w = (w[0] + w[1]) + (w[2] + w[3]), u = left, v = top;
+    PlaneMoments& m = sums_[label];
+    m.n += p.n;
+    m.u += p.u + p.n * u;
+    m.v += p.v + p.n * v;
+    m.uu += p.uu + (2 * p.u + p.n * u) * u;
+    m.uv += p.uv + p.u * v + (p.v + p.n * v) * u;
+    m.vv += p.vv + (2 * p.v + p.n * v) * v;
+    m.w += sum_w;
+    m.uw += w[1] + 2 * w[2] + 3 * w[3] + u * sum_w;
+    m.vw += (vw[0] + vw[1]) + (vw[2] + vw[3]) + v * sum_w;
+    m.ww += (ww[0] + ww[1]) + (ww[2] + ww[3]);
+    extendTo(label, found, left, top);
+  }
+}
+
+// By the pixels of a cell that are set.
+void
+FaceDescriber::extendTo(short label, unsigned found, int left, int top)
+{
+  constexpr unsigned row = 0xf, column = 0x1111; // of a cell's bits
+  constexpr int last = CellGrid::size - 1;
+  int x0 = 0, x1 = last, y0 = 0, y1 = last;
+  while ((found & column << x0) == 0)
+    ++x0;
+  while ((found & column << x1) == 0)
+    --x1;
+  while ((found & row << (CellGrid::size * y0)) == 0)
+    ++y0;
+  while ((found & row << (CellGrid::size * y1)) == 0)
+    --y1;
+  extend(label, left + x0, top + y0, left + x1, top + y1);
+}
+
 // Cells that belong to one face as a whole have their sums already.
 void
 FaceDescriber::sumCellRow(const cv::Mat1f& image,
@@ -124,7 +188,7 @@ FaceDescriber::sumCellRow(const cv::Mat1f& image,
         fourLabels(labels + 2 * down) == same && fourLabels(labels + 3 * down) == same;
     const int left = size * c;
     if (!whole) {
-      sumPixels(image, pixels, {left, top, size, size});
+      sumMixedCell(image, pixels, c, row);
       continue;
     }
     if (label <= 0)

@@ -35,6 +35,9 @@ private:
   void
   sumPixels(const cv::Mat1f& image, const PixelLabels& pixels, const cv::Rect& part);
   void number(const PixelLabels& pixels, cv::Mat1s& labels) const;
+  void
+  sumMixedCell(const cv::Mat1f& image, const PixelLabels& pixels, int column, int row);
+  void extendTo(short label, unsigned found, int left, int top);
   void extend(short label, int left, int top, int right, int bottom);
 
   std::vector<PlaneMoments> sums_;   // by label

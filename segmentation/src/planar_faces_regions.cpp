@@ -8,7 +8,9 @@ namespace hoist {
 namespace detail {
 
 struct CellRegions::Test {
-  float a, b, c;                       // plane
+  float a, b, c;                       // plane by pixel
+  float cell_a, cell_b, cell_c;        // plane in the middle of a cell, by cell
+  float within;                        // mean square of the plane within a full cell
   float constant, linear, square;      // noise
   float mean_tolerance, rms_tolerance; // squared
 
@@ -18,6 +20,11 @@ struct CellRegions::Test {
   : a(static_cast<float>(plane[0]))
   , b(static_cast<float>(plane[1]))
   , c(static_cast<float>(plane[2]))
+  , cell_a(CellGrid::size * a)
+  , cell_b(CellGrid::size * b)
+  , cell_c(static_cast<float>(plane[2] +
+                              (CellGrid::size - 1) / 2.0 * (plane[0] + plane[1])))
+  , within((CellGrid::size * CellGrid::size - 1) / 12.0F * (a * a + b * b))
   , constant(static_cast<float>(noise.constant))
   , linear(static_cast<float>(noise.linear))
   , square(static_cast<float>(noise.square))
@@ -29,27 +36,37 @@ struct CellRegions::Test {
   }
 
   bool
-  operator()(const CellGrid& grid, int cell, int column, int row) const
+  full(const CellGrid::Cell& m, int column, int row) const
+  {
+    const float at =
+        cell_a * static_cast<float>(column) + cell_b * static_cast<float>(row) + cell_c;
+    return passes(m, at, within);
+  }
+
+  bool
+  partial(const CellGrid::Cell& m, std::uint16_t measured, int column, int row) const
   {
     constexpr float size = CellGrid::size;
-    const CellGrid::Cell& m = grid.cells[cell];
-    float mu = (size - 1) / 2, mv = mu, uu = (size * size - 1) / 12, uv = 0, vv = uu;
-    if (grid.measured[cell] != CellGrid::full) {
-      const PositionSums p = CellGrid::positions(grid.measured[cell]);
-      const float part = 1 / static_cast<float>(p.n);
-      mu = static_cast<float>(p.u) * part;
-      mv = static_cast<float>(p.v) * part;
-      uu = static_cast<float>(p.uu) * part - mu * mu;
-      uv = static_cast<float>(p.uv) * part - mu * mv;
-      vv = static_cast<float>(p.vv) * part - mv * mv;
-    }
+    const PositionSums p = CellGrid::positions(measured);
+    const float part = 1 / static_cast<float>(p.n);
+    const float mu = static_cast<float>(p.u) * part;
+    const float mv = static_cast<float>(p.v) * part;
+    const float uu = static_cast<float>(p.uu) * part - mu * mu;
+    const float uv = static_cast<float>(p.uv) * part - mu * mv;
+    const float vv = static_cast<float>(p.vv) * part - mv * mv;
     const float u = size * static_cast<float>(column) + mu;
     const float v = size * static_cast<float>(row) + mv;
-    const float mean = m.w - (a * u + b * v + c);
+    return passes(m, a * u + b * v + c, a * (a * uu + 2 * b * uv) + b * b * vv);
+  }
+
+private:
+  bool
+  passes(const CellGrid::Cell& m, float at, float spread) const
+  {
+    const float mean = m.w - at, off = mean * mean;
+    const float rms = off + m.ww + spread - 2 * (a * m.uw + b * m.vw);
     const float sigma = constant + m.w * (linear + m.w * square);
-    const float unit = sigma * sigma, off = mean * mean;
-    const float rms =
-        off + m.ww + a * (a * uu + 2 * (b * uv - m.uw)) + b * (b * vv - 2 * m.vw);
+    const float unit = sigma * sigma;
     return off <= mean_tolerance * unit && rms <= rms_tolerance * unit;
   }
 };
@@ -70,7 +87,8 @@ CellRegions::find(const CellGrid& grid,
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
       const int cell = grid.index(column, row);
-      if (CellGrid::positions(grid.measured[cell]).n < CellGrid::min_pixels)
+      if (!grid.isFull(cell) &&
+          CellGrid::positions(grid.measured[cell]).n < CellGrid::min_pixels)
         continue;
       owner[cell] = 0;
       last_round_[cell] = 0;
@@ -93,24 +111,29 @@ void
 CellRegions::flood(const CellWindow& window, const CellGrid& grid, const Test& test)
 {
   ++round_;
-  members_.clear();
-  const auto visit = [&](int cell, int column, int row) {
-    if (last_round_[cell] >= round_)
+  members_.resize(grid.cells.size()); // room for all, so that adding is a store
+  Member* end = members_.data();
+  int* last_round = last_round_.data();
+  const auto visit = [&, round = round_](int cell, int column, int row) {
+    if (last_round[cell] >= round)
       return;
-    last_round_[cell] = round_;
-    if (test(grid, cell, column, row))
-      members_.push_back({cell, column, row});
+    last_round[cell] = round;
+    const CellGrid::Cell& m = grid.cells[cell];
+    if (grid.isFull(cell) ? test.full(m, column, row)
+                          : test.partial(m, grid.measured[cell], column, row))
+      *end++ = {cell, column, row};
   };
   for (int y = window.row; y < window.row + window.height; ++y)
     for (int x = window.column; x < window.column + window.width; ++x)
       visit(grid.index(x, y), x, y);
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Member m = members_[i];
+  for (const Member* next = members_.data(); next != end; ++next) {
+    const Member m = *next;
     visit(m.cell - 1, m.column - 1, m.row);
     visit(m.cell + 1, m.column + 1, m.row);
     visit(m.cell - grid.stride, m.column, m.row - 1);
     visit(m.cell + grid.stride, m.column, m.row + 1);
   }
+  count_ = static_cast<std::size_t>(end - members_.data());
 }
 
 PlaneMoments
@@ -118,11 +141,16 @@ CellRegions::sumOfMembers(const CellGrid& grid) const
 {
   PlaneMoments sum;
   FullCellSums whole;
-  for (const Member& m : members_)
-    if (grid.measured[m.cell] == CellGrid::full)
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Member& m = members_[i];
+    if (grid.isFull(m.cell))
       whole.add(grid.cells[m.cell], m.column, m.row);
     else
-      sum += grid.moments({m.column, m.row, 1, 1});
+      sum += CellGrid::moments(grid.cells[m.cell],
+                               CellGrid::positions(grid.measured[m.cell]),
+                               m.column,
+                               m.row);
+  }
   sum += whole.moments();
   return sum;
 }
@@ -147,15 +175,15 @@ CellRegions::growFrom(const CellWindow& window, const CellGrid& grid)
     sum = sumOfMembers(grid);
     if (sum.n < parameters_.min_pixels / 2.0 || !sum.fit(plane))
       return false;
-    if (members_.size() <= last)
+    if (count_ <= last)
       break;
-    last = members_.size();
+    last = count_;
   }
   planes.push_back(plane);
   sums.push_back(sum);
-  for (const Member& m : members_) {
-    owner[m.cell] = static_cast<short>(planes.size());
-    last_round_[m.cell] = never;
+  for (std::size_t i = 0; i < count_; ++i) {
+    owner[members_[i].cell] = static_cast<short>(planes.size());
+    last_round_[members_[i].cell] = never;
   }
   return true;
 }
@@ -194,7 +222,7 @@ CellRegions::mergeNeighbours(const CellGrid& grid)
   // along a border the same two meet again and again
   short last_a = 0, last_b = 0;
   const auto tryMerge = [&](int cell, int other) {
-    if (owner[cell] <= 0 || owner[other] <= 0 || owner[cell] == owner[other])
+    if (owner[cell] == owner[other] || owner[cell] <= 0 || owner[other] <= 0)
       return;
     const short a = root(owner[cell]), b = root(owner[other]);
     if (a == b || (a == last_a && b == last_b))

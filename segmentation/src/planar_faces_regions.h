@@ -44,7 +44,8 @@ private:
 
   InverseDepthNoise noise_;
   PlanarFaceParameters parameters_;
-  std::vector<Member> members_;
+  std::vector<Member> members_; // of the region that grows: the first count_
+  std::size_t count_ = 0;
   // per cell: the last round of growing that looked at it, or that none shall
   std::vector<int> last_round_;
   static constexpr int never = std::numeric_limits<int>::max();
