@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -75,6 +76,91 @@ circleCost(const std::vector<Eigen::Vector2d>& points, double gate, double longe
   return best;
 }
 
+// What is measured around a box, seen along one of its edges.
+class Profile {
+public:
+  Profile(const detail::CuboidView& view, const cv::Mat1f& inverse_depth)
+  : view_(view)
+  , size_(view.box.size())
+  , noise_(view.sensor.sigmaZ(view.box.center().z()))
+  {
+    const double area = (view.right - view.left + 1.0) * (view.bottom - view.top + 1.0);
+    constexpr int max_samples = 1500;
+    const int stride =
+        std::max(1, static_cast<int>(std::lround(std::sqrt(area / max_samples))));
+    for (int v = view.top; v <= view.bottom; v += stride)
+      for (int u = view.left; u <= view.right; u += stride) {
+        const float w = inverse_depth(v, u);
+        if (w > 0)
+          measured_.emplace_back(view.box.axes.transpose() *
+                                 (view.camera.ray(u, v) / static_cast<double>(w)));
+      }
+  }
+
+  // Cost of the corner of faces f and g over the cost of a circle.
+  double
+  corner(int f, int g)
+  {
+    const int x = f / 2, y = g / 2;
+    collect(f, g);
+    return ratio([](const Eigen::Vector2d& q) { return cornerDistance(q); },
+                 std::max(size_[x], size_[y]));
+  }
+
+  // The same for face f alone, seen along the axis that is neither its own nor y.
+  double
+  line(int f, int y)
+  {
+    collect(f, 2 * y + 1);
+    return ratio([](const Eigen::Vector2d& q) { return q.x() * q.x(); }, size_[y]);
+  }
+
+private:
+  // Points near face f, relative to its corner with face g.
+  void
+  collect(int f, int g)
+  {
+    const int x = f / 2, y = g / 2, z = 3 - x - y;
+    const double reach = 0.5 * std::min(size_[x], size_[y]);
+    const bool alone =
+        std::find(view_.front.begin(), view_.front.begin() + view_.fronts, g) ==
+        view_.front.begin() + view_.fronts;
+    points_.clear();
+    for (const Eigen::Vector3d& p : measured_) {
+      if (p[z] < view_.box.lower[z] || p[z] > view_.box.upper[z])
+        continue;
+      const Eigen::Vector2d q((p[x] - view_.end(f)) * detail::CuboidView::side(f),
+                              (p[y] - view_.end(g)) * detail::CuboidView::side(g));
+      if (q.x() < -size_[x] || q.y() < -size_[y])
+        continue;
+      const double square =
+          alone ? (q.y() > 0 ? reach * reach + 1 : q.x() * q.x()) : cornerDistance(q);
+      if (square <= reach * reach)
+        points_.push_back(q);
+    }
+  }
+
+  template <typename Distance>
+  double
+  ratio(const Distance& distance, double longest) const
+  {
+    constexpr std::size_t min_points = 50;
+    if (points_.size() < min_points)
+      return 0;
+    const double gate = 2.5 * noise_ + 0.5 * view_.pixel;
+    double flat = 0;
+    for (const Eigen::Vector2d& q : points_)
+      flat += std::min(distance(q) / (gate * gate), 1.0);
+    return flat / (circleCost(points_, gate, longest) + 1e-9);
+  }
+
+  const detail::CuboidView& view_;
+  Eigen::Vector3d size_;
+  double noise_;                          // [m]
+  std::vector<Eigen::Vector3d> measured_; // in the box's axes
+  std::vector<Eigen::Vector2d> points_;
+};
+
 } // namespace
 
 double
@@ -86,45 +172,19 @@ cuboidRoundness(const CuboidHypothesis& h,
   const detail::CuboidView view(h, camera, sensor, inverse_depth.size());
   if (!view.valid())
     return 0;
-  const double area = (view.right - view.left + 1.0) * (view.bottom - view.top + 1.0);
-  constexpr int max_samples = 1500;
-  const int stride =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(area / max_samples))));
-  const Eigen::Vector3d size = h.size();
-  double highest = 0;
-  std::vector<Eigen::Vector2d> points;
+  Profile profile(view, inverse_depth);
+  std::array<bool, 3> seen{};
   for (int i = 0; i < view.fronts; ++i)
-    for (int j = i + 1; j < view.fronts; ++j) {
-      const int f = view.front[i], g = view.front[j];
-      const int x = f / 2, y = g / 2, z = 3 - x - y;
-      const double reach = 0.5 * std::min(size[x], size[y]);
-      points.clear();
-      for (int v = view.top; v <= view.bottom; v += stride)
-        for (int u = view.left; u <= view.right; u += stride) {
-          const float w = inverse_depth(v, u);
-          if (!(w > 0))
-            continue;
-          const Eigen::Vector3d p =
-              h.axes.transpose() * (view.camera.ray(u, v) / static_cast<double>(w));
-          if (p[z] < h.lower[z] || p[z] > h.upper[z])
-            continue;
-          const Eigen::Vector2d q((p[x] - view.end(f)) * detail::CuboidView::side(f),
-                                  (p[y] - view.end(g)) * detail::CuboidView::side(g));
-          if (q.x() < -size[x] || q.y() < -size[y] || cornerDistance(q) > reach * reach)
-            continue;
-          points.push_back(q);
-        }
-      constexpr std::size_t min_points = 50;
-      if (points.size() < min_points)
-        continue;
-      const double noise = sensor.sigmaZ(h.center().z());
-      const double gate = 2.5 * noise + 0.5 * view.pixel;
-      double corner = 0;
-      for (const Eigen::Vector2d& q : points)
-        corner += std::min(cornerDistance(q) / (gate * gate), 1.0);
-      const double circle = circleCost(points, gate, std::max(size[x], size[y]));
-      highest = std::max(highest, corner / (circle + 1e-9));
-    }
+    seen[view.front[i] / 2] = true;
+  double highest = 0;
+  for (int i = 0; i < view.fronts; ++i) {
+    const int f = view.front[i];
+    for (int j = i + 1; j < view.fronts; ++j)
+      highest = std::max(highest, profile.corner(f, view.front[j]));
+    for (int y = 0; y < 3; ++y)
+      if (y != f / 2 && !seen[y])
+        highest = std::max(highest, profile.line(f, y));
+  }
   return highest;
 }
 

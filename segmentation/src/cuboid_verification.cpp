@@ -24,6 +24,7 @@ trust(EndSource end)
   case EndSource::seen:
     return 1.0;
   case EndSource::support:
+  case EndSource::bracketed:
     return 0.95;
   case EndSource::contact:
     return 0.92;

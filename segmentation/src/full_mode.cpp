@@ -137,6 +137,10 @@ FullMode::segment(const FrameImages& images,
                        hypothesis_parameters,
                        w.hypotheses,
                        diagnostics);
+  bracketEnds(images.inverse_depth,
+              images.intrinsics,
+              hypothesis_parameters,
+              w.hypotheses);
   extendToSupport(w.faces, w.borders, hypothesis_parameters, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 

@@ -14,11 +14,13 @@ namespace hoist {
 
 /** \brief How the end of a box along an axis is known. */
 enum class EndSource : unsigned char {
-  bound,   ///< something covers it; the box reaches at least that far
-  seen,    ///< outline, crease or plane
-  contact, ///< something that does not carry the box touches it there; it may go on
-           ///< behind that
-  support  ///< covered; taken from the surface it stands on or leans against
+  bound,     ///< something covers it; the box reaches at least that far
+  seen,      ///< outline, crease or plane
+  contact,   ///< something that does not carry the box touches it there; it may go on
+             ///< behind that
+  bracketed, ///< covered, but where it was put to within a seventh of the side:
+             ///< farther out the background is seen
+  support    ///< covered; taken from the surface it stands on or leans against
 };
 
 /** \brief A box that may be there. Camera frame, metres.
@@ -83,5 +85,15 @@ extendToSupport(const std::vector<PlanarFace>& faces,
                 const FaceBorders& borders,
                 const CuboidHypothesisParameters& parameters,
                 std::vector<CuboidHypothesis>& hypotheses);
+
+/** \brief Looks behind what covers an end of a box.
+ *
+ * Where a face that reached on by more than 15 % of the side would hide background that
+ * the sensor saw, the end lies in between; it is put into the middle and marked
+ * EndSource::bracketed. */
+HOIST_SEGMENTATION_EXPORT void bracketEnds(const cv::Mat1f& inverse_depth,
+                                           const Intrinsics& camera,
+                                           const CuboidHypothesisParameters& parameters,
+                                           std::vector<CuboidHypothesis>& hypotheses);
 
 } // namespace hoist
