@@ -106,7 +106,7 @@ Batch::recognize(Store& store, const StopSignal& stop)
   progress_ =
       std::make_unique<BatchProgress>(mine_.size(), settings_.worker.recognize.quiet);
   Supervisor::Plan plan;
-  plan.memory = planMemory(settings_.memory, settings_.jobs);
+  plan.memory = planMemory(settings_.memory, settings_.jobs, all_.size());
   if (plan.memory.workers < settings_.jobs && !settings_.worker.recognize.quiet)
     fmt::print(stderr,
                "hoist batch: {} instead of {} workers, for the memory of {}\n",

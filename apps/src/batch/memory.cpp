@@ -16,9 +16,10 @@ namespace {
 
 constexpr std::uint64_t mega = 1024 * 1024;
 
-// The batch itself: its own data, results that wait to be written, and the pages of the
-// libraries, which the workers share with it.
-constexpr std::uint64_t own = 256 * mega;
+// The batch itself: results that wait to be written, and the pages of the libraries,
+// which the workers share with it; and what a file's names take (300 bytes measured).
+constexpr std::uint64_t own_base = 256 * mega;
+constexpr std::uint64_t own_per_file = 512;
 
 // A worker that has loaded the program and recognises 640 x 480 pixels takes half.
 constexpr std::uint64_t smallest_share = 192 * mega;
@@ -70,8 +71,9 @@ defaultMemory()
 }
 
 MemoryPlan
-planMemory(std::uint64_t memory, std::size_t workers)
+planMemory(std::uint64_t memory, std::size_t workers, std::size_t files)
 {
+  const std::uint64_t own = own_base + own_per_file * files;
   if (memory < own + smallest_share)
     throw UsageError("--memory " + memoryText(memory) + " is less than the " +
                      memoryText(own + smallest_share) + " that one worker needs");

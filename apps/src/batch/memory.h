@@ -25,7 +25,8 @@ struct MemoryPlan {
 
 /** \brief Divides \a memory among at most \a workers so that the sum with the batch's
  *  own is kept, and each has enough for a common frame.
+ *  \param files of the whole batch: their names take memory too
  *  \throws UsageError if it is too little for one */
-MemoryPlan planMemory(std::uint64_t memory, std::size_t workers);
+MemoryPlan planMemory(std::uint64_t memory, std::size_t workers, std::size_t files);
 
 } // namespace hoist
