@@ -52,24 +52,22 @@ public:
     const short* label = labels_[v] + u;
     const float* depth = image_[v] + u;
     const unsigned char* use = mask_.empty() ? nullptr : mask_[v] + u;
-    const std::ptrdiff_t label_step = label_steps_[direction],
-                         image_step = image_steps_[direction],
-                         mask_step = mask_steps_[direction];
+    const std::ptrdiff_t image_step = image_steps_[direction];
     int fringe = 0;
     float last = 0; // an unlabelled measurement on the way
     const int end = std::min(max_hole, room[direction]);
     for (int k = 1; k <= end; ++k) {
-      label += label_step;
       depth += image_step;
-      if (use != nullptr && *(use += mask_step) == 0)
+      if (use != nullptr && *(use += mask_steps_[direction]) == 0)
         return {k == 1 ? BorderKind::cut : BorderKind::open, -1};
-      if (*label != 0)
-        return meet(face, *label - 1, u, v, direction, k, *depth);
-      if (*depth > 0) {
-        last = *depth;
-        if (++fringe >= max_fringe)
-          return compare(face, u, v, direction, last);
-      }
+      if (!(*depth > 0))
+        continue;
+      const short other = label[k * label_steps_[direction]];
+      if (other != 0)
+        return meet(face, other - 1, u, v, direction, k, *depth);
+      last = *depth;
+      if (++fringe >= max_fringe)
+        return compare(face, u, v, direction, last);
     }
     if (end < max_hole) // the image ends
       return {end == 0 ? BorderKind::cut : BorderKind::open, -1};

@@ -18,6 +18,23 @@ footprint(const PlanarFace& face, const Eigen::Vector3d& d, const Intrinsics& ca
   return std::hypot(du, dv);
 }
 
+namespace {
+
+// What is not to be used counts as not measured.
+void
+applyMask(const cv::Mat1f& image, const cv::Mat1b& mask, cv::Mat1f& masked)
+{
+  for (int v = 0; v < image.rows; ++v) {
+    const float* in = image[v];
+    const unsigned char* use = mask[v];
+    float* out = masked[v];
+    for (int u = 0; u < image.cols; ++u)
+      out[u] = use[u] != 0 ? in[u] : 0.0F;
+  }
+}
+
+} // namespace
+
 struct PlanarFaceFinder::Workspace {
   cv::Mat1f masked;
   detail::CellGrid cells;
@@ -48,10 +65,8 @@ PlanarFaceFinder::find(const cv::Mat1f& inverse_depth,
   Workspace& w = *workspace_;
   cv::Mat1f image = inverse_depth;
   if (!mask.empty()) {
-    // what is not to be used counts as not measured
     w.masked.create(inverse_depth.rows, inverse_depth.cols);
-    w.masked.setTo(0);
-    inverse_depth.copyTo(w.masked, mask);
+    applyMask(inverse_depth, mask, w.masked);
     image = w.masked;
   }
   w.cells.assign(image);

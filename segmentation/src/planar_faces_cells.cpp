@@ -8,40 +8,39 @@ namespace {
 
 constexpr int size = CellGrid::size;
 
-// Number of set bits, sum and square sum of their places, for four bits.
-struct BitSums {
-  int n, k, kk;
-};
-
-constexpr std::array<BitSums, 16>
-bitSums()
+// For two rows of a cell, by their eight bits.
+constexpr std::array<PositionSums, 256>
+positionsOfTwoRows()
 {
-  std::array<BitSums, 16> sums{};
-  for (int bits = 0; bits < 16; ++bits)
-    for (int k = 0; k < 4; ++k)
+  std::array<PositionSums, 256> sums{};
+  for (int bits = 0; bits < 256; ++bits)
+    for (int k = 0; k < 8; ++k)
       if ((bits >> k & 1) != 0) {
-        sums[bits].n += 1;
-        sums[bits].k += k;
-        sums[bits].kk += k * k;
+        const int u = k % size, v = k / size;
+        PositionSums& s = sums[bits];
+        s.n += 1;
+        s.u += u;
+        s.v += v;
+        s.uu += u * u;
+        s.uv += u * v;
+        s.vv += v * v;
       }
   return sums;
 }
 
-constexpr std::array<BitSums, 16> bit_sums = bitSums();
+constexpr std::array<PositionSums, 256> two_rows = positionsOfTwoRows();
 
 constexpr PositionSums
 positionSums(unsigned measured)
 {
+  const PositionSums &a = two_rows[measured & 0xffU], &b = two_rows[measured >> 8];
   PositionSums sums;
-  for (int y = 0; y < size; ++y) {
-    const BitSums& row = bit_sums[measured >> size * y & 15U];
-    sums.n += row.n;
-    sums.u += row.k;
-    sums.uu += row.kk;
-    sums.v += y * row.n;
-    sums.vv += y * y * row.n;
-    sums.uv += y * row.k;
-  }
+  sums.n = a.n + b.n;
+  sums.u = a.u + b.u;
+  sums.v = a.v + b.v + 2 * b.n; // two rows further down
+  sums.uu = a.uu + b.uu;
+  sums.uv = a.uv + b.uv + 2 * b.u;
+  sums.vv = a.vv + b.vv + 4 * b.v + 4 * b.n;
   return sums;
 }
 

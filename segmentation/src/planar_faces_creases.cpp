@@ -44,7 +44,7 @@ PixelLabels::moveCreases(const cv::Mat1f& image)
   }
   // A change is news to the neighbours. A few sweeps reach as far as a cell.
   for (int sweep = 1; sweep < CellGrid::size; ++sweep) {
-    queue_.swap(next_);
+    queue_ = next_; // no swap: each buffer keeps its own room
     next_.clear();
     for (const Pixel& p : queue_) {
       const short label = row(p.v)[p.u];

@@ -110,28 +110,35 @@ FaceDescriber::sumMixedCell(const cv::Mat1f& image,
                             int column,
                             int row)
 {
-  constexpr int size = CellGrid::size;
+  constexpr int size = CellGrid::size, count = size * size;
   const int left = size * column, top = size * row;
-  unsigned open = CellGrid::full; // pixels that nobody has asked for yet
-  for (int first = 0; first < size * size; ++first) {
-    const short label = pixels.row(top + first / size)[left + first % size];
-    if ((open >> first & 1U) == 0 || label <= 0)
-      continue;
-    unsigned found = 0;
-    std::array<double, size> w{}, vw{}, ww{};
-    for (int y = 0; y < size; ++y) {
-      const short* labels = pixels.row(top + y) + left;
-      const float* depth = image[top + y] + left;
-      for (int x = 0; x < size; ++x) {
-        const bool same = labels[x] == label;
-        const double d = same ? static_cast<double>(depth[x]) : 0.0;
-        found |= static_cast<unsigned>(same) << (size * y + x);
-        w[x] += d;
-        vw[x] += y * d;
-        ww[x] += d * d;
-      }
+  std::array<int, count> labels{};
+  std::array<float, count> depth{};
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      labels[size * y + x] = pixels.row(top + y)[left + x];
+      depth[size * y + x] = image[top + y][left + x];
     }
-    open &= ~found;
+  int done = 0; // bits of pixels that have been added
+  for (int first = 0; first < count; ++first) {
+    const int label = labels[first];
+    if (label <= 0 || (done >> first & 1) != 0)
+      continue;
+    // those of one label, the others count as not measured
+    std::array<float, count> d{};
+    int found = 0;
+    for (int i = 0; i < count; ++i) {
+      d[i] = labels[i] == label ? depth[i] : 0.0F;
+      found |= (labels[i] == label ? 1 : 0) << i;
+    }
+    done |= found;
+    std::array<double, size> w{}, vw{}, ww{};
+    for (int x = 0; x < size; ++x) {
+      const double a = d[x], b = d[size + x], c = d[2 * size + x], e = d[3 * size + x];
+      w[x] = (a + b) + (c + e);
+      vw[x] = b + 2 * c + 3 * e;
+      ww[x] = (a * a + b * b) + (c * c + e * e);
+    }
     const PositionSums p = CellGrid::positions(static_cast<std::uint16_t>(found));
     const double sum_w = (w[0] + w[1]) + (w[2] + w[3]), u = left, v = top;
     PlaneMoments& m = sums_[label];
@@ -145,7 +152,7 @@ FaceDescriber::sumMixedCell(const cv::Mat1f& image,
     m.uw += w[1] + 2 * w[2] + 3 * w[3] + u * sum_w;
     m.vw += (vw[0] + vw[1]) + (vw[2] + vw[3]) + v * sum_w;
     m.ww += (ww[0] + ww[1]) + (ww[2] + ww[3]);
-    extendTo(label, found, left, top);
+    extendTo(static_cast<short>(label), static_cast<unsigned>(found), left, top);
   }
 }
 

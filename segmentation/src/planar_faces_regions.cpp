@@ -1,5 +1,7 @@
 #include "planar_faces_regions.h"
 
+#include "planar_faces_marks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -239,12 +241,18 @@ CellRegions::mergeNeighbours(const CellGrid& grid)
     sums[keep - 1] = sum;
     planes[keep - 1] = plane;
   };
-  for (int r = 0; r < grid.rows; ++r)
-    for (int c = 0; c < grid.columns; ++c) {
-      const int cell = grid.index(c, r);
-      tryMerge(cell, cell + 1);
-      tryMerge(cell, cell + grid.stride);
-    }
+  resizeMarks(marks_, grid.columns);
+  for (int r = 0; r < grid.rows; ++r) {
+    const int first = grid.index(0, r);
+    const short *here = &owner[first], *below = here + grid.stride;
+    short* mark = marks_.data();
+    for (int c = 0; c < grid.columns; ++c)
+      mark[c] = here[c] > 0 ? (here[c] ^ here[c + 1]) | (here[c] ^ below[c]) : 0;
+    forEachMark(marks_, grid.columns, [&](int c) {
+      tryMerge(first + c, first + c + 1);
+      tryMerge(first + c, first + c + grid.stride);
+    });
+  }
   for (short& o : owner)
     if (o > 0)
       o = root(o);

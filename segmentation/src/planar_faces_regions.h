@@ -50,7 +50,7 @@ private:
   std::vector<int> last_round_;
   static constexpr int never = std::numeric_limits<int>::max();
   int round_ = 0;
-  std::vector<short> parent_;
+  std::vector<short> parent_, marks_;
 };
 
 } // namespace detail

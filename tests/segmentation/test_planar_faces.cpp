@@ -1,7 +1,9 @@
 // Flat pieces of a frame: their planes against analytic ones, creases where planes
 // meet, masks, empty frames.
+#include <hoist/segmentation/face_borders.h>
 #include <hoist/segmentation/planar_faces.h>
 
+#include "allocations.h"
 #include "test_full_frames.h"
 
 #include <Eigen/Cholesky>
@@ -41,12 +43,14 @@ toPixels(const Eigen::Vector3d& normal, double distance)
 
 // Each pixel shows the farthest of the planes: they meet convexly, as on a box.
 PlaneImage
-draw(const Planes& planes, double noise, std::uint64_t seed)
+draw(const Planes& planes,
+     double noise,
+     std::uint64_t seed,
+     const SensorModel& sensor = {})
 {
   PlaneImage image;
   image.inverse_depth.create(height, width);
   image.plane.create(height, width);
-  const SensorModel sensor;
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       double w = std::numeric_limits<double>::max();
@@ -281,6 +285,73 @@ TEST(PlanarFaces, LabelsCountThePixelsOfTheFaces)
     EXPECT_EQ(count[i], found.faces[i].pixels);
 }
 
+TEST(PlanarFaces, AFaceIsTheLeastSquaresPlaneOfItsPixels)
+{
+  // Sums of whole cells, of shared cells and of what is left beside the last cell make
+  // the same plane as all pixels one by one.
+  cv::Mat1f image =
+      draw(corner(6), 1, 6).inverse_depth(cv::Rect(0, 0, 157, 118)).clone();
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+      if (samples::hashNormal(9, u, v) > 1.5) // one pixel in fifteen is not measured
+        image(v, u) = 0;
+  const Found found = find(image);
+  ASSERT_GE(found.faces.size(), 3U);
+  for (std::size_t i = 0; i < found.faces.size(); ++i) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double square = 0;
+    cv::Point low(width, height), high(-1, -1);
+    const PlanarFace& face = found.faces[i];
+    for (int v = 0; v < image.rows; ++v)
+      for (int u = 0; u < image.cols; ++u) {
+        if (found.labels(v, u) != static_cast<short>(i + 1))
+          continue;
+        ASSERT_GT(image(v, u), 0);
+        const Eigen::Vector3d p(u, v, 1);
+        normal += p * p.transpose();
+        right += p * image(v, u);
+        square += std::pow(image(v, u) - face.inverse_depth.dot(p), 2);
+        low = {std::min(low.x, u), std::min(low.y, v)};
+        high = {std::max(high.x, u), std::max(high.y, v)};
+      }
+    const Eigen::Vector3d plane = normal.ldlt().solve(right);
+    for (const Eigen::Vector2d& corner :
+         {Eigen::Vector2d(low.x, low.y), Eigen::Vector2d(high.x, high.y)})
+      // cells keep their means as floats, rounded to 6e-8, of which many average out
+      EXPECT_NEAR((plane - face.inverse_depth).dot(corner.homogeneous()), 0, 2e-8);
+    EXPECT_EQ(face.box, cv::Rect(low, high + cv::Point(1, 1)));
+    // rms is in units of sigma at the mean inverse depth
+    const double w = right.z() / face.pixels, z = 1 / w;
+    PlanarFaceFinder finder;
+    Found again;
+    finder.find(image, {}, camera(), {}, again.labels, again.faces);
+    const double sigma = finder.noiseScale() * SensorModel().sigmaZ(z) * w * w;
+    EXPECT_NEAR(face.rms, std::sqrt(square / face.pixels) / sigma, 1e-3);
+  }
+}
+
+TEST(PlanarFaces, MemoryIsKeptFromFrameToFrame)
+{
+  PlanarFaceFinder finder;
+  FaceBorders borders;
+  Found found;
+  const PlaneImage image = draw(corner(4), 1, 4);
+  cv::Mat1b mask(height, width, static_cast<unsigned char>(255));
+  mask(cv::Rect(30, 20, 9, 50)).setTo(0);
+  const auto run = [&](const cv::Mat1b& use) {
+    finder.find(image.inverse_depth, use, camera(), {}, found.labels, found.faces);
+    findFaceBorders(
+        found.labels, image.inverse_depth, use, camera(), {}, found.faces, borders);
+  };
+  for (const cv::Mat1b& use : {cv::Mat1b(), mask}) {
+    run(use);
+    const std::size_t before = test::allocations();
+    run(use);
+    EXPECT_EQ(test::allocations() - before, 0U) << (use.empty() ? "no mask" : "mask");
+  }
+}
+
 TEST(PlanarFaces, SecondCallEqualsTheFirst)
 {
   const PlaneImage image = draw(corner(7), 1, 7);
@@ -353,6 +424,32 @@ TEST(PlanarFaces, NoiseScaleFollowsTheFrame)
   // twice the lower quartile of the windows, which is just below the noise itself
   EXPECT_NEAR(low, 0.2, 0.04);
   EXPECT_NEAR(high, 0.6, 0.12);
+}
+
+TEST(PlanarFaces, TheNoiseOfEverySensorIsKnown)
+{
+  // Twice the lower quartile of the windows as above, and planes at 0.7 to 2 m, so that
+  // a sensor taken for another one would be off by more than the tolerance.
+  for (const SensorModel& sensor : {SensorModel::kinect(),
+                                    SensorModel::stereo(60, 0.2),
+                                    SensorModel::constant(0.004)}) {
+    PlanarFaceFinder finder;
+    Found out;
+    PlanarFaceParameters parameters;
+    parameters.sensor = sensor;
+    for (const double distance : {0.7, 2.0}) {
+      const Planes planes = {toPixels(Eigen::Vector3d(0.2, -0.3, -1), -distance)};
+      finder.find(draw(planes, 0.3, 2, sensor).inverse_depth,
+                  {},
+                  camera(),
+                  parameters,
+                  out.labels,
+                  out.faces);
+      EXPECT_NEAR(finder.noiseScale(), 0.6, 0.12) << distance;
+      ASSERT_EQ(out.faces.size(), 1U);
+      EXPECT_GT(out.faces[0].pixels, 0.99 * width * height);
+    }
+  }
 }
 
 } // namespace

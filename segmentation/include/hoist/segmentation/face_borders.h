@@ -53,7 +53,8 @@ struct FaceBorders {
  * Runs without measurement are crossed, so that the shadow a depth sensor casts beside
  * a near object is told from an outline.
  *
- * \param labels height x width, number of the face + 1, 0 where none
+ * \param labels height x width, number of the face + 1, 0 where none and where
+ *        nothing was measured
  * \param inverse_depth same size [1/m], 0 where not measured
  */
 HOIST_SEGMENTATION_EXPORT void findFaceBorders(const cv::Mat1s& labels,
