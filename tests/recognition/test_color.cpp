@@ -212,4 +212,124 @@ TEST_P(Print, OrderOfThePixelsDoesNotMatter)
   EXPECT_EQ(first.rgb, second.rgb);
 }
 
+// n pixels of one surface: its reflectance (as an sRGB colour) in a light, with noise.
+void
+addSurface(std::vector<cv::Vec3b>& pixels,
+           const std::array<double, 3>& rgb,
+           const std::array<double, 3>& light,
+           int n,
+           std::mt19937& generator)
+{
+  std::normal_distribution<double> noise(0.0, 8.0);
+  for (int i = 0; i < n; ++i) {
+    cv::Vec3b pixel;
+    for (int c = 0; c < 3; ++c)
+      pixel[2 - c] =
+          cv::saturate_cast<unsigned char>(rgb[c] * light[c] + noise(generator));
+    pixels.push_back(pixel);
+  }
+}
+
+std::string
+nameOf(const std::vector<cv::Vec3b>& pixels)
+{
+  hoist::Color color;
+  return hoist::dominantColor(pixels, color) ? hoist::colorName(color.lab) : "";
+}
+
+// What a white balance leaves of a warm and of a cool lamp: 15 % of the ratio of red to
+// blue. Bright and in the shade.
+const std::array<double, 3> lights[] = {{1.07, 1.0, 0.93},
+                                        {1.0, 1.0, 1.0},
+                                        {0.93, 1.0, 1.07},
+                                        {0.75, 0.70, 0.65},
+                                        {0.65, 0.70, 0.75}};
+
+struct Surface {
+  std::array<double, 3> rgb;
+  const char* name;
+};
+
+TEST(DominantColor, KeepsItsNameInWarmNeutralAndCoolLight)
+{
+  const Surface surfaces[] = {{{200, 30, 45}, "red"},
+                              {{60, 140, 70}, "green"},
+                              {{40, 80, 190}, "blue"},
+                              {{225, 210, 50}, "yellow"},
+                              {{140, 140, 140}, "grey"}};
+  std::mt19937 generator(11);
+  for (const Surface& surface : surfaces)
+    for (const auto& light : lights) {
+      // dark yellow is olive; nobody claims otherwise
+      if (light[1] < 1.0 && surface.name == std::string("yellow"))
+        continue;
+      std::vector<cv::Vec3b> pixels;
+      addSurface(pixels, surface.rgb, light, 800, generator);
+      EXPECT_EQ(nameOf(pixels), surface.name) << light[0] << ' ' << light[1];
+    }
+}
+
+// A red carton whose white print is split by shade and lies bluish, as in a real frame:
+// red has most of the pixels, but the print is the densest spot of the colour space.
+TEST_P(Print, WhiteInTheShadeDoesNotMakeARedBoxBlue)
+{
+  std::mt19937 generator(GetParam());
+  std::vector<cv::Vec3b> pixels;
+  for (int shade = 0; shade < 10; ++shade) {
+    const double k = 0.55 + 0.05 * shade;
+    addSurface(pixels, {190, 20, 45}, {k, k, k}, 50, generator);
+  }
+  addSurface(pixels, {159, 179, 202}, {1, 1, 1}, 400, generator);
+  EXPECT_EQ(nameOf(pixels), "red");
+}
+
+TEST_P(Print, TheMajorityWins)
+{
+  const Surface surfaces[] = {{{200, 30, 45}, "red"},
+                              {{40, 80, 190}, "blue"},
+                              {{60, 140, 70}, "green"},
+                              {{240, 240, 240}, "white"},
+                              {{20, 20, 20}, "black"}};
+  std::mt19937 generator(GetParam());
+  for (const Surface& most : surfaces)
+    for (const Surface& less : surfaces) {
+      if (&most == &less)
+        continue;
+      std::vector<cv::Vec3b> pixels;
+      addSurface(pixels, most.rgb, {1, 1, 1}, 550, generator);
+      addSurface(pixels, less.rgb, {1, 1, 1}, 450, generator);
+      EXPECT_EQ(nameOf(pixels), most.name) << "not " << less.name;
+    }
+}
+
+// Whatever little chroma a cast gives it, in any direction.
+TEST(Color, GreyStaysGreyUnderACast)
+{
+  for (double lightness = 30; lightness <= 75; lightness += 5)
+    for (int hue = 0; hue < 360; hue += 5) {
+      const double chroma = 9.5; // 12, less what the darkest of these loses to shade
+      EXPECT_EQ(hoist::colorName({lightness,
+                                  chroma * std::cos(hue * CV_PI / 180),
+                                  chroma * std::sin(hue * CV_PI / 180)}),
+                "grey")
+          << lightness << ' ' << hue;
+    }
+}
+
+// The same surfaces at half the exposure: lightness is what it is to the white beside.
+TEST(Color, WhiteIsWhatIsAsLightAsTheLightest)
+{
+  std::vector<cv::Vec3b> frame(1000, cv::Vec3b(90, 90, 90));
+  std::fill_n(frame.begin(), 100, cv::Vec3b(200, 200, 200));
+  const double white = hoist::lightnessOfWhite(frame);
+  EXPECT_NEAR(white, hoist::labFromRgb({200, 200, 200})[0], 0.01);
+  EXPECT_EQ(hoist::colorName(hoist::labFromRgb({195, 195, 195}), white), "white");
+  EXPECT_EQ(hoist::colorName(hoist::labFromRgb({195, 195, 195})), "grey");
+  EXPECT_EQ(hoist::colorName(hoist::labFromRgb({90, 90, 90}), white), "grey");
+  // but a frame without anything light has no white in it
+  EXPECT_EQ(hoist::lightnessOfWhite(std::vector<cv::Vec3b>(9, cv::Vec3b(90, 90, 90))),
+            80.0);
+  EXPECT_EQ(hoist::lightnessOfWhite({}), 100.0);
+}
+
 } // namespace

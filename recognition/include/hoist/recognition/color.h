@@ -22,11 +22,13 @@ labFromRgb(const std::array<unsigned char, 3>& rgb);
 
 /** \brief The colour most of the pixels have.
  *
- * The mode of the pixels in L*a*b*, found on a coarse histogram and refined by mean
- * shift, then the median of the pixels near it. Print, labels and highlights are other
- * modes and do not pull the answer; a mean would give a colour that no pixel has.
- * Lightness counts half as much as hue and chroma, because faces of one box are shaded
- * differently.
+ * Pixels with a hue vote for it, pixels without one for their lightness, in between for
+ * both in part. The heaviest window of 50 degrees of hue, or of 40 of lightness among
+ * the greys, has the surface in it, at its densest hue: print, labels and highlights
+ * are other clusters and do not pull the answer; a mean would give a colour that no
+ * pixel has. The answer is the median of the cluster's purer half (of higher chroma, or
+ * lighter among the greys), for shade and the blur between two inks only take purity
+ * away.
  *
  * \param pixels one colour per supporting pixel, OpenCV's channel order
  * \param color the answer
@@ -35,11 +37,20 @@ labFromRgb(const std::array<unsigned char, 3>& rgb);
 HOIST_RECOGNITION_EXPORT bool dominantColor(const std::vector<cv::Vec3b>& pixels,
                                             Color& color);
 
+/** \brief L* of what counts as white among the pixels of a frame: their 97 % quantile,
+ *  held in [80, 100]; 100 if there are none.
+ *
+ * The lightest surface of a scene is seen as white (Gilchrist et al., "An anchoring
+ * theory of lightness perception", 1999), whatever the exposure was. */
+HOIST_RECOGNITION_EXPORT double lightnessOfWhite(const std::vector<cv::Vec3b>& pixels);
+
 /** \brief One of the eleven basic colour terms of Berlin and Kay, "Basic Color Terms",
  *  1969: black, white, grey, red, green, yellow, blue, brown, purple, pink, orange.
  *
  * A partition of lightness, chroma and hue angle; see docs/features.md for the borders.
+ * \param white L* of white, in (0, 100]; lightness is taken relative to it
  */
-HOIST_RECOGNITION_EXPORT std::string colorName(const std::array<double, 3>& lab);
+HOIST_RECOGNITION_EXPORT std::string colorName(const std::array<double, 3>& lab,
+                                               double white = 100.0);
 
 } // namespace hoist

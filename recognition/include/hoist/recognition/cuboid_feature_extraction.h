@@ -19,9 +19,10 @@ namespace hoist {
  * and its name, orientation, lifting pose and weight.
  *
  * The colour is read from the input as it is: white balance the cloud first, see
- * WhiteBalance. A cuboid's pixels are its own \c indices where it has some, else the
- * points of the input within the surface tolerance of its faces; with setIndices only
- * those among the given indices count. Point types without colour leave the colour
+ * WhiteBalance. Its name is told against the lightest surface of the whole input, see
+ * lightnessOfWhite. A cuboid's pixels are its own \c indices where it has some, else
+ * the points of the input within the surface tolerance of its faces; with setIndices
+ * only those among the given indices count. Point types without colour leave the colour
  * name empty.
  *
  * \code
@@ -113,6 +114,8 @@ protected:
 
 private:
   bool validIndices() const;
+
+  double lightnessOfInputsWhite() const;
 
   pcl::Indices pixelsOf(const Cuboid& cuboid, const std::vector<bool>& given) const;
 

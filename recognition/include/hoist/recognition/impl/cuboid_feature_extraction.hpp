@@ -59,6 +59,22 @@ CuboidFeatureExtraction<PointT>::pixelsOf(const Cuboid& cuboid,
 }
 
 template <typename PointT>
+double
+CuboidFeatureExtraction<PointT>::lightnessOfInputsWhite() const
+{
+  std::vector<cv::Vec3b> colors;
+  if constexpr (pcl::traits::has_color<PointT>::value) {
+    // a quantile needs no more than some 10^4 points
+    const std::size_t step = input_->size() / 20000 + 1;
+    for (std::size_t i = 0; i < input_->size(); i += step) {
+      const PointT& p = (*input_)[i];
+      colors.emplace_back(p.b, p.g, p.r);
+    }
+  }
+  return lightnessOfWhite(colors);
+}
+
+template <typename PointT>
 bool
 CuboidFeatureExtraction<PointT>::compute(std::vector<CuboidFeatures>& features)
 {
@@ -81,6 +97,7 @@ CuboidFeatureExtraction<PointT>::compute(std::vector<CuboidFeatures>& features)
   const Material* material = material_.empty() ? nullptr : findMaterial(material_);
 
   std::vector<cv::Vec3b> colors;
+  const double white = lightnessOfInputsWhite();
   for (const Cuboid& cuboid : cuboids_) {
     CuboidFeatures feature;
     if constexpr (pcl::traits::has_color<PointT>::value) {
@@ -93,7 +110,7 @@ CuboidFeatureExtraction<PointT>::compute(std::vector<CuboidFeatures>& features)
       if (dominantColor(colors, color)) {
         feature.rgb = color.rgb;
         feature.lab = color.lab;
-        feature.color_name = colorName(color.lab);
+        feature.color_name = colorName(color.lab, white);
       }
     }
 
