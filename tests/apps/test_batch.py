@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import pathlib
+import pty
 import random
 import shutil
 import signal
@@ -318,6 +319,25 @@ class Results(BatchTest):
         self.assertIn("3 files in", result.stderr)
         self.assertEqual(self.batch("in", "-o", "out", "-q").stderr, "")
 
+    def test_progress_on_a_terminal(self):
+        self.frames(12)
+        master, slave = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "batch", "in", "-o", "out", "-j", "1"],
+                                   cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=slave)
+        os.close(slave)
+        shown = b""
+        while True:
+            try:
+                part = os.read(master, 4096)
+            except OSError:  # the other end is closed
+                break
+            shown += part
+        os.close(master)
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertRegex(shown, rb"\r\x1b\[K\[=* *\] \d+/12 files, [\d.]+/s, \d:\d\d left")
+        self.assertIn(b"12 files in", shown)
+
     def test_names_that_are_hard(self):
         frame = TinyFrames.get()[0]
         names = ["with space.pcd", "new\nline.pcd", "-dash.pcd", "[x].pcd", "ü.pcd",
@@ -605,7 +625,8 @@ class Safety(BatchTest):
         a few more results are there."""
         process = subprocess.Popen(
             [PROGRAM, "batch", "in", "-o", "out", "-q", *map(str, arguments)],
-            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            start_new_session=True)
         goal = self.records() + 5
         limit = time.monotonic() + (60 if delay is None else delay)
         while time.monotonic() < limit and process.poll() is None:
@@ -615,7 +636,10 @@ class Safety(BatchTest):
         if process.poll() is not None:
             return process.returncode
         workers = children(process.pid)
-        process.send_signal(sent)
+        if sent == signal.SIGINT:  # a terminal sends it to the workers too
+            os.killpg(process.pid, sent)
+        else:
+            process.send_signal(sent)
         code = process.wait(timeout=60)
         limit = time.monotonic() + 10  # nobody outlives the batch
         while any(map(alive, workers)) and time.monotonic() < limit:

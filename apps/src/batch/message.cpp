@@ -11,7 +11,7 @@ namespace hoist {
 namespace {
 
 // A worker gone mad must not make the batch ask for the machine's memory.
-constexpr std::uint64_t longest = std::uint64_t(1) << 30;
+constexpr std::uint64_t longest = std::uint64_t(1) << 28;
 
 void
 append(std::string& bytes, std::uint64_t number)

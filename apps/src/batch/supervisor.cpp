@@ -115,7 +115,8 @@ Supervisor::wait()
   (void)::poll(polled.data(), polled.size(), static_cast<int>(std::max<long>(time, 0)));
   for (std::size_t i = 0; i < speakers.size(); ++i) {
     Slot& slot = *speakers[i];
-    if (polled[i + 1].revents != 0)
+    // also one whose time is up: it may have answered while we waited for the disk
+    if (polled[i + 1].revents != 0 || (slot.job && Clock::now() >= slot.deadline))
       listen(slot);
     if (!slot.process || !slot.job || Clock::now() < slot.deadline)
       continue;
