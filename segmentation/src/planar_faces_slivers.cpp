@@ -1,21 +1,21 @@
 #include "planar_faces_pixels.h"
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 
 namespace hoist {
 namespace detail {
 namespace {
 
-// Whether one of four labels is 0.
+constexpr int block = 32;
+
+// Whether one of a block of labels is 0.
 bool
-anyZero(const short* labels)
+anyOpen(const short* labels)
 {
-  constexpr std::uint64_t ones = 0x0001000100010001, tops = 0x8000800080008000;
-  std::uint64_t word = 0;
-  std::memcpy(&word, labels, sizeof(word));
-  return ((word - ones) & ~word & tops) != 0;
+  int open = 0;
+  for (int i = 0; i < block; ++i)
+    open |= labels[i] == 0 ? 1 : 0;
+  return open != 0;
 }
 
 } // namespace
@@ -69,12 +69,11 @@ PixelLabels::addSlivers(const cv::Mat1f& image,
                         int min_pixels,
                         CellRegions& regions)
 {
-  constexpr int word = 4;
   for (int v = 0; v < height_; ++v) {
     const short* labels = row(v);
     for (int u = 0; u < width_; ++u) {
-      if (u + word <= width_ && !anyZero(labels + u)) {
-        u += word - 1;
+      if (u % block == 0 && u + block <= width_ && !anyOpen(labels + u)) {
+        u += block - 1;
         continue;
       }
       if (labels[u] != 0)
