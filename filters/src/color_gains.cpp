@@ -2,9 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace hoist {
+namespace {
+
+struct Uv { // CIE 1960
+  double u, v;
+};
+
+// Of an sRGB colour in [0, 255], IEC 61966-2-1.
+Uv
+chromaticity(const std::array<double, 3>& rgb)
+{
+  std::array<double, 3> linear{};
+  for (int c = 0; c < 3; ++c) {
+    const double value = rgb[c] / 255;
+    linear[c] =
+        value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  const auto [r, g, b] = linear;
+  const double x = 0.4124 * r + 0.3576 * g + 0.1805 * b;
+  const double y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  const double z = 0.0193 * r + 0.1192 * g + 0.9505 * b;
+  const double sum = x + 15 * y + 3 * z;
+  return {4 * x / sum, 6 * y / sum};
+}
+
+// Of a black body of t kelvin, 1000 to 15000: Krystek, "An algorithm to calculate
+// correlated colour temperature", 1985; good to 1e-4.
+Uv
+planckian(double t)
+{
+  return {(0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) /
+              (1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t),
+          (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) /
+              (1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t)};
+}
+
+} // namespace
+
+double
+tintOfLight(const std::array<double, 3>& rgb)
+{
+  const Uv light = chromaticity(rgb);
+  // even steps of the reciprocal temperature are about even steps on the locus
+  constexpr int steps = 200;
+  constexpr double coolest = 1e6 / 15000, warmest = 1e6 / 2000; // [1 / MK]
+  double tint = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= steps; ++i) {
+    const Uv body = planckian(1e6 / (coolest + (warmest - coolest) * i / steps));
+    tint = std::min(tint, std::hypot(light.u - body.u, light.v - body.v));
+  }
+  return tint;
+}
 
 double
 ColorHistogram::mean(int channel) const
@@ -40,6 +92,8 @@ estimateGains(const ColorHistogram& histogram, const WhiteBalanceParameters& par
     throw std::invalid_argument("hoist::WhiteBalance: percentile must be in (0, 100]");
   if (!(parameters.max_gain >= 1))
     throw std::invalid_argument("hoist::WhiteBalance: max_gain must be >= 1");
+  if (!(parameters.max_tint >= 0))
+    throw std::invalid_argument("hoist::WhiteBalance: max_tint must be >= 0");
   ColorGains gains;
   if (histogram.size() == 0)
     return gains;
@@ -50,9 +104,11 @@ estimateGains(const ColorHistogram& histogram, const WhiteBalanceParameters& par
                    : histogram.quantile(c, parameters.percentile / 100);
   if (*std::min_element(light.begin(), light.end()) < 0.5)
     return gains; // a channel is black: there is no ratio to learn
-  const double luma = 0.299 * light[0] + 0.587 * light[1] + 0.114 * light[2];
+  if (tintOfLight(light) > parameters.max_tint)
+    return gains; // no light looks like that: it is the colour of what fills the scene
+  const double brightest = *std::max_element(light.begin(), light.end());
   const auto gain = [&](int c) {
-    return std::clamp(luma / light[c], 1 / parameters.max_gain, parameters.max_gain);
+    return std::min(brightest / light[c], parameters.max_gain);
   };
   return {gain(0), gain(1), gain(2), true};
 }

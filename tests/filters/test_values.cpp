@@ -123,6 +123,45 @@ TEST(WhiteBalanceValues, TheMaskAndTheIndicesChooseWhoTells)
     ASSERT_EQ(output[i].r, std::round((*cloud)[i].r * filter.getGains().r));
 }
 
+TEST(WhiteBalanceValues, LightsArePlausibleAndPaintsAreNot)
+{
+  // the white points of sRGB (D65), of D50 and of illuminant A in sRGB's coding
+  EXPECT_LT(tintOfLight({255, 255, 255}), 0.006);
+  EXPECT_LT(tintOfLight({255, 235, 206}), 0.01);
+  EXPECT_LT(tintOfLight({255, 178, 100}), 0.01);
+  for (const std::array<double, 3>& paint :
+       {std::array<double, 3>{200, 30, 45}, {60, 200, 70}, {190, 60, 190}})
+    EXPECT_GT(tintOfLight(paint), 0.05) << paint[0] << ' ' << paint[1];
+  // brightness is no matter of it but for the foot of sRGB's curve
+  EXPECT_NEAR(tintOfLight({200, 150, 100}), tintOfLight({100, 75, 50}), 0.003);
+}
+
+// A red carton that fills the frame is no red lamp: it must not turn grey.
+TEST(WhiteBalanceValues, WhatFillsTheFrameIsNoLight)
+{
+  const cv::Mat3b image(20, 20, cv::Vec3b(45, 30, 200));
+  const ColorGains gains = estimateGains(image);
+  EXPECT_FALSE(gains.valid);
+  EXPECT_EQ(gains.r, 1);
+  EXPECT_EQ(gains.b, 1);
+  WhiteBalanceParameters parameters;
+  parameters.max_tint = 10; // whoever knows better may say so
+  EXPECT_TRUE(estimateGains(image, cv::Mat1b(), parameters).valid);
+  parameters.max_tint = -1;
+  EXPECT_THROW(estimateGains(image, cv::Mat1b(), parameters), std::invalid_argument);
+}
+
+TEST(WhiteBalanceValues, AClippedWhiteStaysWhite)
+{
+  cv::Mat3b image(20, 20, cv::Vec3b(140, 180, 200)); // a warm lamp on white
+  image.row(0) = cv::Vec3b(255, 255, 255);
+  const ColorGains gains = estimateGains(image);
+  ASSERT_TRUE(gains.valid);
+  EXPECT_GT(gains.b, 1.2);
+  applyGains(gains, image);
+  EXPECT_EQ(image(0, 0), cv::Vec3b(255, 255, 255));
+}
+
 TEST(WhiteBalanceValues, BadParametersThrow)
 {
   WhiteBalanceParameters parameters;

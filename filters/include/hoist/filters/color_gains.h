@@ -22,13 +22,14 @@ struct WhiteBalanceParameters {
   double percentile = 97; ///< white_patch: of each channel, (0, 100]; 100 = maximum
   int min_value = 8;      ///< pixels with a channel below are too noisy
   int max_value = 250;    ///< pixels with a channel above are clipped: their ratio lies
-  double max_gain = 4;    ///< gains are held in [1 / max_gain, max_gain], >= 1
+  double max_gain = 4;    ///< gains are held in [1, max_gain], >= 1
+  double max_tint = 0.04; ///< a guess further off the colours of lamps and sky is none
 };
 
 /** \brief Factors of the three channels, on the 8 bit values. */
 struct ColorGains {
   double r = 1, g = 1, b = 1;
-  bool valid = false; ///< false: nothing to learn from, all gains are 1
+  bool valid = false; ///< false: nothing to learn from or no light; all gains are 1
 };
 
 /** \brief Counts of 8 bit values by channel; all that the estimates need. */
@@ -70,10 +71,20 @@ private:
   int min_, max_;
 };
 
-/** \brief Gains that make the guessed light white: gain_c = Y(e) / e_c, with e the
- *  guessed colour of the light and Y its luma 0.299 R + 0.587 G + 0.114 B, so that
- *  brightness stays.
+/** \brief How far a colour lies from those of incandescent light and the sky: its
+ *  distance from the Planckian locus, 2000 to 15000 K, in CIE 1960 (u, v).
  *
+ * Lamps sold as white stay within 0.006 (ANSI C78.377), daylight within 0.004; a camera
+ * that sets its own white adds its error. sRGB's red lies 0.12 off.
+ *  \param rgb sRGB values, [0, 255], one at least > 0 */
+HOIST_FILTERS_EXPORT double tintOfLight(const std::array<double, 3>& rgb);
+
+/** \brief Gains that make the guessed light white: gain_c = max(e) / e_c, with e the
+ *  guessed colour of the light.
+ *
+ * No gain is below 1: a clipped white stays white instead of taking the complement of
+ * the light's colour. A guess that is no plausible light (\ref tintOfLight above
+ * max_tint) is the colour of what fills the frame, and changes nothing.
  * Works on the coded values: where they follow a power law of the light, a gain of the
  * light is a gain of the value.
  * \throws std::invalid_argument on a parameter outside its range
