@@ -24,6 +24,8 @@ fixed(cv::Point2f p)
   return {cvRound(p.x * one), cvRound(p.y * one)};
 }
 
+} // namespace
+
 cv::Size
 textSize(const std::string& text, int text_scale)
 {
@@ -32,13 +34,11 @@ textSize(const std::string& text, int text_scale)
 }
 
 void
-putLine(cv::Mat3b& image, const std::string& text, cv::Point at, int text_scale)
+drawText(cv::Mat3b& image, const std::string& text, cv::Point at, int text_scale)
 {
   cv::putText(
       image, text, at, font, font_scale * text_scale, ink, text_scale, cv::LINE_AA);
 }
-
-} // namespace
 
 void
 drawHaloLine(cv::Mat3b& image,
@@ -49,12 +49,6 @@ drawHaloLine(cv::Mat3b& image,
 {
   cv::line(image, fixed(p), fixed(q), rim, thickness + 2, cv::LINE_AA, fraction_bits);
   cv::line(image, fixed(p), fixed(q), color, thickness, cv::LINE_AA, fraction_bits);
-}
-
-void
-drawThinLine(cv::Mat3b& image, cv::Point2f p, cv::Point2f q, const cv::Scalar& color)
-{
-  cv::line(image, fixed(p), fixed(q), color, 1, cv::LINE_AA, fraction_bits);
 }
 
 void
@@ -92,7 +86,7 @@ drawFooter(const std::string& title,
   cv::Mat3b strip(row * (two_rows ? 2 : 1), width, cv::Vec3b());
   strip.setTo(panel);
   const auto baseline = [&](int r) { return r * row + row / 2 + 5 * text_scale; };
-  putLine(strip, title, {margin, baseline(0)}, text_scale);
+  drawText(strip, title, {margin, baseline(0)}, text_scale);
 
   const int r = two_rows ? 1 : 0;
   int x = two_rows ? margin : width - legend_width;
@@ -116,100 +110,10 @@ drawFooter(const std::string& title,
     else
       cv::circle(strip, centre, 4 * text_scale, entry.color, text_scale, cv::LINE_AA);
     x += mark + margin / 2;
-    putLine(strip, entry.text, {x, baseline(r)}, text_scale);
+    drawText(strip, entry.text, {x, baseline(r)}, text_scale);
     x += textSize(entry.text, text_scale).width + margin + margin / 2;
   }
   return strip;
-}
-
-LabelPlacer::LabelPlacer(cv::Size canvas, int text_scale)
-: canvas_(canvas), text_scale_(text_scale)
-{
-}
-
-double
-LabelPlacer::cost(const cv::Rect& box, const cv::Rect& target) const
-{
-  double covered = 0;
-  for (const Label& other : labels_)
-    covered += (box & other.box).area() + 0.3 * (box & other.target).area();
-  const cv::Point from(box.x + box.width / 2, box.y + box.height / 2);
-  const cv::Point to(target.x + target.width / 2, target.y + target.height / 2);
-  return covered + 0.5 * (box & target).area() + 4.0 * cv::norm(from - to);
-}
-
-void
-LabelPlacer::add(const std::vector<std::string>& lines,
-                 const cv::Rect& target,
-                 const cv::Scalar& color)
-{
-  const int pad = 7 * text_scale_, line = 19 * text_scale_;
-  int width = 0;
-  for (const std::string& text : lines)
-    width = std::max(width, textSize(text, text_scale_).width);
-  const cv::Size size(width + 2 * pad + 4 * text_scale_,
-                      static_cast<int>(lines.size()) * line + pad);
-
-  // Above, below, beside, and the same further away.
-  cv::Rect best;
-  double best_cost = 0;
-  for (const int gap : {6, 30, 60, 110, 180})
-    for (const double along : {0.5, 0.0, 1.0, 0.25, 0.75})
-      for (int side = 0; side < 4; ++side) {
-        const int distance = gap * text_scale_;
-        cv::Point at;
-        if (side < 2)
-          at = {target.x + static_cast<int>(along * (target.width - size.width)),
-                side == 0 ? target.y - size.height - distance
-                          : target.y + target.height + distance};
-        else
-          at = {side == 2 ? target.x + target.width + distance
-                          : target.x - size.width - distance,
-                target.y + static_cast<int>(along * (target.height - size.height))};
-        at.x = std::clamp(at.x, 2, std::max(2, canvas_.width - size.width - 2));
-        at.y = std::clamp(at.y, 2, std::max(2, canvas_.height - size.height - 2));
-        const cv::Rect box(at, size);
-        const double c = cost(box, target);
-        if (best.empty() || c < best_cost) {
-          best = box;
-          best_cost = c;
-        }
-      }
-  labels_.push_back({lines, best, target, color});
-}
-
-void
-LabelPlacer::draw(cv::Mat3b& image) const
-{
-  const int pad = 7 * text_scale_, line = 19 * text_scale_;
-  for (const Label& label : labels_) { // leaders under all boxes
-    const cv::Rect& box = label.box;
-    const cv::Rect& target = label.target;
-    const cv::Point2f from(
-        std::clamp(target.x + target.width * 0.5f, 1.0f * box.x, 1.0f * box.br().x),
-        std::clamp(target.y + target.height * 0.5f, 1.0f * box.y, 1.0f * box.br().y));
-    const cv::Point2f to(
-        std::clamp(
-            from.x, target.x + 0.2f * target.width, target.x + 0.8f * target.width),
-        std::clamp(
-            from.y, target.y + 0.2f * target.height, target.y + 0.8f * target.height));
-    drawHaloLine(image, from, to, label.color, text_scale_);
-  }
-  for (const Label& label : labels_) {
-    const cv::Rect box = label.box & cv::Rect({}, image.size());
-    cv::Mat3b area = image(box);
-    area = 0.18 * area + panel * 0.82;
-    cv::rectangle(image,
-                  cv::Rect(box.x, box.y, 4 * text_scale_, box.height),
-                  label.color,
-                  cv::FILLED);
-    for (std::size_t i = 0; i < label.lines.size(); ++i)
-      putLine(image,
-              label.lines[i],
-              {box.x + pad + 4 * text_scale_,
-               box.y + pad / 2 + (static_cast<int>(i) + 1) * line - 5 * text_scale_},
-              text_scale_);
-  }
 }
 
 } // namespace hoist

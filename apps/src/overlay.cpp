@@ -1,6 +1,8 @@
 #include "overlay.h"
 
 #include "drawing.h"
+#include "labels.h"
+#include "wireframe.h"
 
 #include <hoist/filters/edge_kind.h>
 
@@ -17,18 +19,19 @@ namespace {
 
 constexpr int min_columns = 1280;
 
-// Okabe and Ito's palette (colour-blind safe) without black, lightened where it is
-// dark, and three more; BGR.
-const cv::Scalar palette[] = {{0, 159, 230},
-                              {233, 180, 86},
-                              {125, 190, 20},
-                              {66, 228, 240},
-                              {190, 130, 225},
-                              {30, 110, 240},
-                              {235, 140, 70},
-                              {150, 240, 150},
-                              {150, 160, 255},
-                              {210, 220, 160}};
+// Ten colours far apart for every eye: chosen one after the other, each as far as
+// possible from all before in L*a*b*, least over normal, protanopic and deuteranopic
+// sight (Machado et al. 2009), light enough for a dark picture; BGR.
+const cv::Scalar palette[] = {{0, 165, 225},
+                              {255, 0, 195},
+                              {255, 240, 0},
+                              {105, 0, 255},
+                              {180, 105, 135},
+                              {150, 255, 165},
+                              {180, 180, 255},
+                              {30, 75, 210},
+                              {255, 180, 30},
+                              {105, 135, 75}};
 
 const cv::Scalar color_edge(200, 200, 90);
 const cv::Scalar occlusion_edge(60, 110, 255);
@@ -60,18 +63,18 @@ depthPicture(const cv::Mat1f& inverse_depth)
   return picture;
 }
 
-// 98 % of the pixels are at most this bright; at least 1.
+// This share of the pixels is at most this bright; at least 1.
 double
-brightLevel(const cv::Mat1b& luma)
+level(const cv::Mat1b& luma, double share)
 {
   std::array<int, 256> histogram{};
   for (const unsigned char value : luma)
     ++histogram[value];
-  auto rest = static_cast<long>(luma.total() / 50);
-  int level = 255;
-  while (level > 1 && (rest -= histogram[level]) > 0)
-    --level;
-  return level;
+  double rest = (1.0 - share) * static_cast<double>(luma.total());
+  int value = 255;
+  while (value > 1 && (rest -= histogram[value]) > 0)
+    --value;
+  return value;
 }
 
 bool
@@ -88,17 +91,20 @@ background(const FrameImages& images, int scale)
       images.bgr.empty() ? depthPicture(images.inverse_depth) : images.bgr;
   cv::Mat3b large, grey;
   cv::resize(picture, large, {}, scale, scale, cv::INTER_CUBIC);
-  // Half of the colour goes and the light is brought to one level, darker than the
-  // lines, whatever the exposure was.
+  // Some of the colour goes and the light is brought to one level, darker than the
+  // lines, whatever the exposure was; a lamp in a dark room must not make it black.
   cv::Mat1b luma;
   cv::cvtColor(large, luma, cv::COLOR_BGR2GRAY);
-  const double gain = std::clamp(150.0 / brightLevel(luma), 0.5, 1.5);
+  const double gain = std::clamp(
+      std::max(165.0 / level(luma, 0.98), 70.0 / level(luma, 0.5)), 0.6, 2.2);
   cv::cvtColor(luma, grey, cv::COLOR_GRAY2BGR);
   cv::Mat3b dimmed;
-  cv::addWeighted(large, 0.55 * gain, grey, 0.35 * gain, 0.0, dimmed);
+  cv::addWeighted(large, 0.70 * gain, grey, 0.20 * gain, 0.0, dimmed);
   return dimmed;
 }
 
+// Depth explains an edge better than colour does; creases of noise are many, so they
+// are faint.
 void
 drawEdges(cv::Mat3b& image, const cv::Mat1b& kinds, int scale)
 {
@@ -107,15 +113,13 @@ drawEdges(cv::Mat3b& image, const cv::Mat1b& kinds, int scale)
       const int kind = kinds(v, u);
       if (kind == 0)
         continue;
-      // depth explains an edge better than colour does
-      const cv::Scalar& color = (kind & EDGE_OCCLUSION) != 0 ? occlusion_edge
-                                : (kind & EDGE_CREASE) != 0  ? crease_edge
-                                                             : color_edge;
+      const bool occlusion = (kind & EDGE_OCCLUSION) != 0;
+      const bool crease = !occlusion && (kind & EDGE_CREASE) != 0;
+      const cv::Scalar& color =
+          occlusion ? occlusion_edge : (crease ? crease_edge : color_edge);
+      const double ink = occlusion ? 0.5 : (crease ? 0.25 : 0.35);
       cv::Mat3b cell = image(cv::Rect(u * scale, v * scale, scale, scale));
-      for (cv::Vec3b& pixel : cell)
-        for (int c = 0; c < 3; ++c)
-          pixel[c] =
-              cv::saturate_cast<unsigned char>(0.45 * pixel[c] + 0.55 * color[c]);
+      cell = (1.0 - ink) * cell + color * ink;
     }
 }
 
@@ -152,109 +156,111 @@ labelText(const RecognizedCuboid& recognized, std::size_t number)
           second};
 }
 
-// The twelve edges as seen from the origin; hidden ones lie between two faces that
-// look away.
-class Wireframe {
-public:
-  Wireframe(const Cuboid& cuboid, const Intrinsics& camera, int scale)
-  : corners_(cuboid.corners()), camera_(camera), scale_(scale)
-  {
-    for (int face = 0; face < 6; ++face) {
-      const Eigen::Vector3d normal =
-          cuboid.axes.col(face / 2) * (face % 2 == 0 ? 1.0 : -1.0);
-      const Eigen::Vector3d centre =
-          cuboid.center + normal * (0.5 * cuboid.size[face / 2]);
-      front_[face] = normal.dot(centre) < 0;
-    }
+double
+distanceToLine(cv::Point2f p, const EdgePiece& edge)
+{
+  const cv::Point2f way = edge.to - edge.from;
+  const double length = cv::norm(way);
+  if (length == 0)
+    return cv::norm(p - edge.from);
+  const double along =
+      std::clamp((p - edge.from).dot(way) / (length * length), 0.0, 1.0);
+  return cv::norm(p - (edge.from + way * along));
+}
+
+// Both ends lie on one seen edge of a cuboid, within \a reach pixels.
+bool
+supports(cv::Point2f p,
+         cv::Point2f q,
+         const std::vector<std::vector<EdgePiece>>& edges,
+         double reach)
+{
+  for (const auto& cuboid : edges)
+    for (const EdgePiece& edge : cuboid)
+      if (!edge.hidden && distanceToLine(p, edge) <= reach &&
+          distanceToLine(q, edge) <= reach)
+        return true;
+  return false;
+}
+
+// Segments on a cuboid's edges are strong, the others faint.
+void
+drawSegments(cv::Mat3b& image,
+             const std::vector<LineSegment>& segments,
+             const std::vector<std::vector<EdgePiece>>& edges,
+             int scale)
+{
+  const auto at = [&](const Eigen::Vector2f& pixel) {
+    return cv::Point2f(scale * (pixel.x() + 0.5f), scale * (pixel.y() + 0.5f));
+  };
+  cv::Mat3b faint = image.clone();
+  for (const LineSegment& s : segments)
+    cv::line(faint, at(s.pixels[0]), at(s.pixels[1]), segment_color, 1, cv::LINE_AA);
+  cv::addWeighted(faint, 0.35, image, 0.65, 0.0, image);
+  for (const LineSegment& s : segments)
+    if (supports(at(s.pixels[0]), at(s.pixels[1]), edges, 4.0 * scale))
+      cv::line(image,
+               at(s.pixels[0]),
+               at(s.pixels[1]),
+               segment_color,
+               std::max(1, scale / 2),
+               cv::LINE_AA);
+}
+
+void
+drawVertices(cv::Mat3b& image, const OverlayContents& contents, int scale, int radius)
+{
+  const Intrinsics& camera = contents.images.intrinsics;
+  for (const Vertex& v : contents.vertices) {
+    if (v.point.z() <= 0 || !camera.valid())
+      continue;
+    const Eigen::Vector2d uv = camera.project(v.point) + Eigen::Vector2d(0.5, 0.5);
+    cv::circle(image,
+               cv::Point(cvRound(scale * uv.x()), cvRound(scale * uv.y())),
+               radius,
+               vertex_color,
+               1,
+               cv::LINE_AA);
   }
+}
 
-  void
-  fill(cv::Mat3b& image, const cv::Scalar& color) const
-  {
-    if (corners_.row(2).minCoeff() < near_)
-      return;
-    cv::Mat3b painted = image.clone();
-    for (int face = 0; face < 6; ++face) {
-      if (!front_[face])
-        continue;
-      const int axis = face / 2, side = face % 2 == 0 ? 1 << axis : 0;
-      const int a = 1 << (axis + 1) % 3, b = 1 << (axis + 2) % 3;
-      std::vector<cv::Point> outline;
-      for (const int corner : {side, side | a, side | a | b, side | b})
-        outline.emplace_back(pixel(corners_.col(corner)));
-      cv::fillConvexPoly(painted, outline, color, cv::LINE_AA);
-    }
-    cv::addWeighted(painted, 0.16, image, 0.84, 0.0, image);
-  }
+const cv::Scalar&
+colorOf(std::size_t cuboid)
+{
+  return palette[cuboid % (sizeof palette / sizeof *palette)];
+}
 
-  void
-  draw(cv::Mat3b& image, const cv::Scalar& color, bool hidden) const
-  {
-    for (int e = 0; e < 12; ++e) {
-      const auto& edge = Cuboid::edges()[e];
-      const bool visible = front_[faceOf(edge[0], (e / 4 + 1) % 3)] ||
-                           front_[faceOf(edge[0], (e / 4 + 2) % 3)];
-      if (visible == hidden)
-        continue;
-      Eigen::Vector3d p = corners_.col(edge[0]), q = corners_.col(edge[1]);
-      if (!clip(p, q))
-        continue;
-      if (hidden)
-        drawDashedLine(image, pixel(p), pixel(q), color, 1, 5 * scale_);
-      else
-        drawHaloLine(image, pixel(p), pixel(q), color, scale_);
-    }
-  }
+void
+tint(cv::Mat3b& image, const cv::Mat1i& owners)
+{
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x)
+      if (owners(y, x) >= 0) {
+        const cv::Scalar& color = colorOf(static_cast<std::size_t>(owners(y, x)));
+        cv::Vec3b& pixel = image(y, x);
+        for (int c = 0; c < 3; ++c)
+          pixel[c] =
+              cv::saturate_cast<unsigned char>(0.95 * pixel[c] + 0.05 * color[c]);
+      }
+}
 
-  // Bounding box of the corners in front of the camera.
-  cv::Rect
-  bounds() const
-  {
-    std::vector<cv::Point> points;
-    for (int k = 0; k < 8; ++k)
-      if (corners_(2, k) >= near_)
-        points.emplace_back(pixel(corners_.col(k)));
-    return points.empty() ? cv::Rect() : cv::boundingRect(points);
-  }
-
-private:
-  static constexpr double near_ = 0.05; // [m]
-
-  static int
-  faceOf(int corner, int axis)
-  {
-    return 2 * axis + ((corner >> axis & 1) != 0 ? 0 : 1);
-  }
-
-  static bool
-  clip(Eigen::Vector3d& p, Eigen::Vector3d& q)
-  {
-    if (p.z() < near_ && q.z() < near_)
-      return false;
-    Eigen::Vector3d& behind = p.z() < q.z() ? p : q;
-    const Eigen::Vector3d& front = p.z() < q.z() ? q : p;
-    if (behind.z() < near_)
-      behind += (front - behind) * ((near_ - behind.z()) / (front.z() - behind.z()));
-    return true;
-  }
-
-  cv::Point2f
-  pixel(const Eigen::Vector3d& p) const
-  {
-    // far outside the picture is as good as anywhere outside, and fits an int
-    constexpr double limit = 30000;
-    const Eigen::Vector2d uv =
-        (scale_ * (camera_.project(p) + Eigen::Vector2d(0.5, 0.5)))
-            .cwiseMax(-limit)
-            .cwiseMin(limit);
-    return {static_cast<float>(uv.x()), static_cast<float>(uv.y())};
-  }
-
-  Eigen::Matrix<double, 3, 8> corners_;
-  const Intrinsics& camera_;
-  int scale_;
-  bool front_[6] = {};
-};
+// Hidden pieces thin and dashed under all seen ones.
+void
+drawWireframes(cv::Mat3b& image,
+               const std::vector<std::vector<EdgePiece>>& edges,
+               int scale)
+{
+  for (const bool hidden : {true, false})
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (const EdgePiece& piece : edges[i]) {
+        if (piece.hidden != hidden)
+          continue;
+        if (hidden)
+          drawDashedLine(image, piece.from, piece.to, colorOf(i), 1, 4 * scale);
+        else
+          drawHaloLine(image, piece.from, piece.to, colorOf(i), scale);
+      }
+}
 
 std::string
 summary(const FrameResult& result)
@@ -302,38 +308,26 @@ drawOverlay(const OverlayContents& contents)
   if (!contents.edges.empty())
     drawEdges(image, contents.edges, scale);
 
-  const auto at = [&](const Eigen::Vector2f& pixel) {
-    return cv::Point2f(scale * (pixel.x() + 0.5f), scale * (pixel.y() + 0.5f));
-  };
-  for (const LineSegment& s : contents.segments)
-    drawThinLine(image, at(s.pixels[0]), at(s.pixels[1]), segment_color);
-  for (const Vertex& v : contents.vertices)
-    if (v.point.z() > 0 && images.intrinsics.valid())
-      cv::circle(image,
-                 at(images.intrinsics.project(v.point).cast<float>()),
-                 4 * text_scale,
-                 vertex_color,
-                 text_scale,
-                 cv::LINE_AA);
+  std::vector<Cuboid> cuboids;
+  for (const RecognizedCuboid& recognized : contents.result.cuboids)
+    cuboids.push_back(recognized.cuboid);
+  if (!images.intrinsics.valid())
+    cuboids.clear(); // nothing says where in the picture they are
+  const Wireframes wireframes(cuboids, images.intrinsics, scale);
+  std::vector<std::vector<EdgePiece>> edges;
+  for (std::size_t i = 0; i < cuboids.size(); ++i)
+    edges.push_back(wireframes.edges(i));
 
-  const std::vector<RecognizedCuboid>& cuboids = contents.result.cuboids;
-  if (images.intrinsics.valid()) {
-    std::vector<Wireframe> wireframes;
-    for (const RecognizedCuboid& recognized : cuboids)
-      wireframes.emplace_back(recognized.cuboid, images.intrinsics, scale);
-    constexpr std::size_t colors = sizeof palette / sizeof *palette;
-    // all hidden edges lie under all visible ones, and the best cuboid on top
-    for (std::size_t i = cuboids.size(); i-- > 0;) {
-      wireframes[i].fill(image, palette[i % colors]);
-      wireframes[i].draw(image, palette[i % colors], true);
-    }
-    for (std::size_t i = cuboids.size(); i-- > 0;)
-      wireframes[i].draw(image, palette[i % colors], false);
-    LabelPlacer labels(image.size(), text_scale);
-    for (std::size_t i = 0; i < cuboids.size(); ++i)
-      labels.add(labelText(cuboids[i], i), wireframes[i].bounds(), palette[i % colors]);
-    labels.draw(image);
-  }
+  const cv::Mat1i owners = wireframes.owners(image.size());
+  tint(image, owners);
+  drawSegments(image, contents.segments, edges, scale);
+  drawVertices(image, contents, scale, 4 * text_scale);
+  drawWireframes(image, edges, scale);
+  LabelPlacer labels(owners, text_scale);
+  for (std::size_t i = 0; i < cuboids.size(); ++i)
+    labels.add(
+        labelText(contents.result.cuboids[i], i), static_cast<int>(i), colorOf(i));
+  labels.draw(image);
 
   cv::Mat3b picture;
   cv::vconcat(image, footer(contents, image.cols, text_scale), picture);
