@@ -60,8 +60,8 @@ background(const FrameImages& images, int scale)
   // lines, whatever the exposure was; a lamp in a dark room must not make it black.
   cv::Mat1b luma;
   cv::cvtColor(large, luma, cv::COLOR_BGR2GRAY);
-  const double gain = std::clamp(
-      std::max(165.0 / level(luma, 0.98), 70.0 / level(luma, 0.5)), 0.6, 2.2);
+  const double wanted = std::min(70.0 / level(luma, 0.5), 200.0 / level(luma, 0.9));
+  const double gain = std::clamp(std::max(165.0 / level(luma, 0.98), wanted), 0.6, 2.2);
   cv::cvtColor(luma, grey, cv::COLOR_GRAY2BGR);
   cv::Mat3b dimmed;
   cv::addWeighted(large, 0.70 * gain, grey, 0.20 * gain, 0.0, dimmed);

@@ -257,7 +257,7 @@ drawOverlay(const OverlayContents& contents)
     cuboids.push_back(recognized.cuboid);
   if (!images.intrinsics.valid())
     cuboids.clear(); // nothing says where in the picture they are
-  const Wireframes wireframes(cuboids, images.intrinsics, scale);
+  const Wireframes wireframes(cuboids, images, scale);
   std::vector<std::vector<EdgePiece>> edges;
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     edges.push_back(wireframes.edges(i));

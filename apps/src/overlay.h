@@ -24,7 +24,7 @@ struct OverlayContents {
  * The picture is dimmed and enlarged to at least 1280 columns. Edge pixels are coloured
  * by kind, segments are thin lines, faint where they are on no edge of a cuboid,
  * vertices are rings. Every cuboid has a colour of its own, solid edges where they are
- * seen and dashed ones behind itself or another cuboid, and a label with its sizes in
+ * seen and dashed ones behind itself or anything nearer, and a label with its sizes in
  * cm, beside it with a line that leads there (in
  * the order length, width, height; "?" where a size was not observable, ">" where it is
  * a lower bound), score and colour. Frames without colour show their depth. A footer

@@ -49,8 +49,13 @@ clip(Eigen::Vector3d& p, Eigen::Vector3d& q)
 
 } // namespace
 
-Wireframes::Wireframes(std::vector<Cuboid> cuboids, const Intrinsics& camera, int scale)
-: cuboids_(std::move(cuboids)), camera_(camera), scale_(scale)
+Wireframes::Wireframes(std::vector<Cuboid> cuboids,
+                       const FrameImages& images,
+                       int scale)
+: cuboids_(std::move(cuboids))
+, camera_(images.intrinsics)
+, inverse_depth_(images.inverse_depth)
+, scale_(scale)
 {
 }
 
@@ -66,14 +71,25 @@ Wireframes::pixel(const Eigen::Vector3d& p) const
 }
 
 bool
+Wireframes::behindMeasured(const Eigen::Vector3d& p) const
+{
+  const cv::Point2f at = pixel(p) / scale_;
+  const int u = cvFloor(at.x), v = cvFloor(at.y);
+  if (u < 0 || v < 0 || u >= inverse_depth_.cols || v >= inverse_depth_.rows)
+    return false;
+  // an edge's own points are noisy and a pixel or two off; things are further apart
+  const double slack = 0.02 + 0.01 * p.z(); // [m]
+  return inverse_depth_(v, u) * (p.z() - slack) > 1.0;
+}
+
+bool
 Wireframes::covered(const Eigen::Vector3d& p) const
 {
   // boxes touch and are a few mm off: what lies this little behind a face is on it
   const double slack = 0.006 + 0.002 * p.norm(); // [m]
   const double before = 1.0 - slack / p.norm();
-  return std::any_of(cuboids_.begin(), cuboids_.end(), [&](const Cuboid& cuboid) {
-    return entry(cuboid, p) < before;
-  });
+  const auto covers = [&](const Cuboid& cuboid) { return entry(cuboid, p) < before; };
+  return std::any_of(cuboids_.begin(), cuboids_.end(), covers) || behindMeasured(p);
 }
 
 std::vector<EdgePiece>
