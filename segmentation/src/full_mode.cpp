@@ -72,12 +72,12 @@ toCuboid(const CuboidCandidate& candidate)
 }
 
 // Boxes that differ by less than refinement moves them, whatever their axes are called,
-// and whose ends are known alike.
+// and whose ends are known alike. Reach: how far refinement looks for an end [m].
 bool
-alike(const CuboidHypothesis& a, const CuboidHypothesis& b)
+alike(const CuboidHypothesis& a, const CuboidHypothesis& b, double reach)
 {
   constexpr double tolerance = 0.02; // of the diagonal
-  const double gate = tolerance * a.size().norm();
+  const double gate = std::min(reach, tolerance * a.size().norm());
   if ((a.center() - b.center()).norm() > gate)
     return false;
   for (int i = 0; i < 3; ++i) {
@@ -137,10 +137,8 @@ FullMode::segment(const FrameImages& images,
                        hypothesis_parameters,
                        w.hypotheses,
                        diagnostics);
-  bracketEnds(images.inverse_depth,
-              images.intrinsics,
-              hypothesis_parameters,
-              w.hypotheses);
+  bracketEnds(
+      images.inverse_depth, images.intrinsics, hypothesis_parameters, w.hypotheses);
   extendToSupport(w.faces, w.borders, hypothesis_parameters, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 
@@ -182,7 +180,12 @@ FullMode::segment(const FrameImages& images,
   w.done.clear();
   for (const int i : w.order) {
     CuboidCandidate& c = w.candidates[i];
-    const auto same = [&](int k) { return alike(w.hypotheses[k], w.hypotheses[i]); };
+    const double z = w.hypotheses[i].center().z();
+    const double pixel = z / std::min(images.intrinsics.fx, images.intrinsics.fy);
+    const double reach = 3 * (pixel + sensor.sigmaZ(z));
+    const auto same = [&](int k) {
+      return alike(w.hypotheses[k], w.hypotheses[i], reach);
+    };
     if (std::any_of(w.done.begin(), w.done.end(), same)) {
       c.evidence.score = 0;
       diagnostics.rejected.add("the same as another");

@@ -103,7 +103,7 @@ TEST(FullModeEvidence, ABoxGoesOnBehindWhatTouchesIt)
 {
   const samples::View view = tableView();
   samples::Scene scene;
-  scene.boxes.push_back(view.box({0, 0.15, 0}, {1, 0}, {0.3, 0.1, 0.4}, {}, {}));
+  scene.boxes.push_back(view.box({0, 0.25, 0}, {1, 0}, {0.3, 0.3, 0.4}, {}, {}));
   scene.boxes.push_back(view.box({0, 0, 0}, {1, 0}, {0.36, 0.2, 0.15}, {}, {}));
   scene.patches.push_back(view.ground({3, 3}, {}, {}));
   const Prepared p(scene);

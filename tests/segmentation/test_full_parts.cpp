@@ -270,6 +270,7 @@ candidate(double left, double width, double score, int pixels)
   c.hypothesis.lower = {left, 0, 1};
   c.hypothesis.upper = {left + width, 1, 2};
   c.evidence.score = score;
+  c.evidence.trust = 1;
   c.evidence.faces[0].support = pixels;
   return c;
 }
