@@ -210,6 +210,7 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
           faces, i, j, parameters.sensor, parameters.max_side, partners[0]);
       coplanarPartners(
           faces, j, i, parameters.sensor, parameters.max_side, partners[1]);
+      ends.forget();
       const CuboidHypothesis base = h;
       for (const int pi : partners[0])
         for (const int pj : partners[1]) {

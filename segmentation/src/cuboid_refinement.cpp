@@ -44,7 +44,7 @@ weight(double r, double c)
 // Weighted sums over the residuals a . x - end of one box face, from which its share of
 // the normal equations follows: cheaper than nine by nine products for each pixel.
 struct Sums {
-  Eigen::Matrix3d xx = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d xx = Eigen::Matrix3d::Zero(); // only the lower half is summed up
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   Eigen::Vector3d xr = Eigen::Vector3d::Zero();
   double one = 0, r = 0;
@@ -59,11 +59,14 @@ struct Sums {
       double cut)
   {
     const double residual = a.dot(point) - end;
-    const double w = weight(residual / sigma, cut) * n / (sigma * sigma);
+    const double inverse = 1 / sigma;
+    const double w = weight(residual * inverse, cut) * n * inverse * inverse;
     if (w == 0)
       return;
     const Eigen::Vector3d wx = w * point;
-    xx += wx * point.transpose();
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i)
+        xx(i, j) += wx[i] * point[j];
     x += wx;
     xr += wx * residual;
     one += w;
@@ -76,7 +79,8 @@ struct Sums {
   {
     Eigen::Matrix3d cross;
     cross << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-    normal.topLeftCorner<3, 3>() += cross * xx * cross.transpose();
+    const Eigen::Matrix3d full = xx.selfadjointView<Eigen::Lower>();
+    normal.topLeftCorner<3, 3>() += cross * full * cross.transpose();
     const Eigen::Vector3d turn = cross * x;
     normal.block<3, 1>(0, 3 + f) -= turn;
     normal.block<1, 3>(3 + f, 0) -= turn.transpose();
@@ -184,18 +188,17 @@ refineCuboid(CuboidHypothesis& hypothesis,
       if (e.kind == BorderKind::occluded || e.kind == BorderKind::cut)
         continue;
       const Eigen::Vector3d local = h.axes.transpose() * e.point.cast<double>();
-      const Eigen::Vector3d outward = h.axes.transpose() * e.outward.cast<double>();
+      const Eigen::Vector3d outward = e.outward.cast<double>();
       int end = -1;
       double nearest = 1; // in units of the reach
       for (int g = 0; g < 6; ++g) {
         // ends at visible faces are where two planes meet: the pixels know them better
         if (g / 2 == f / 2 || evidence.visible[g])
           continue;
-        if (outward[g / 2] * (g % 2 == 0 ? -1.0 : 1.0) < 0.3)
-          continue;
         const double reach = 1.5 * step[g / 2] + 0.5 * noise;
         const double d = std::abs(local[g / 2] - endOf(h, g)) / reach;
-        if (d < nearest) {
+        const double side = g % 2 == 0 ? -1.0 : 1.0;
+        if (d < nearest && side * h.axes.col(g / 2).dot(outward) >= 0.3) {
           nearest = d;
           end = g;
         }

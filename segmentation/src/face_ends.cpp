@@ -10,6 +10,16 @@ namespace detail {
 FaceEnd
 FaceEnds::find(int face, const Eigen::Vector3d& d, double sigma)
 {
+  for (const Known& k : known_)
+    if (k.face == face && k.direction == d && k.sigma == sigma)
+      return k.end;
+  known_.push_back({face, d, sigma, measure(face, d, sigma)});
+  return known_.back().end;
+}
+
+FaceEnd
+FaceEnds::measure(int face, const Eigen::Vector3d& d, double sigma)
+{
   const double pixel = footprint(faces_[face], d, camera_);
   const double window = 2 * pixel + sigma;
   votes_.clear();

@@ -35,13 +35,30 @@ public:
   /// none.
   FaceEnd find(const std::array<int, 2>& group, const Eigen::Vector3d& d, double sigma);
 
+  /// Answers are kept, as pairs of faces with their coplanar partners ask again and
+  /// again; this drops them.
+  void
+  forget()
+  {
+    known_.clear();
+  }
+
 private:
+  struct Known {
+    int face;
+    Eigen::Vector3d direction;
+    double sigma;
+    FaceEnd end;
+  };
+
+  FaceEnd measure(int face, const Eigen::Vector3d& d, double sigma);
   int contactAt(int face, const Eigen::Vector3f& d, float value, float window) const;
 
   const std::vector<PlanarFace>& faces_;
   const FaceBorders& borders_;
   const Intrinsics& camera_;
   std::vector<float> votes_;
+  std::vector<Known> known_;
 };
 
 } // namespace detail
