@@ -134,10 +134,10 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
           out[0] = {(p.value * wp + q.value * wq) / (wp + wq), true, contact};
           return 1;
         }
-        const FaceEnd &longer = p.value > q.value ? p : q,
-                      &shorter = p.value > q.value ? q : p;
-        out[0] = {longer.value, true, longer.contact};
-        out[1] = {shorter.value, true, shorter.contact};
+        const FaceEnd &outer = p.value > q.value ? p : q,
+                      &inner = p.value > q.value ? q : p;
+        out[0] = {outer.value, true, outer.contact};
+        out[1] = {inner.value, true, inner.contact};
         return 2;
       }
       if (!p.seen && !q.seen) {
