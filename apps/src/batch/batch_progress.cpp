@@ -34,6 +34,14 @@ BatchProgress::~BatchProgress()
 }
 
 void
+BatchProgress::done()
+{
+  ++done_;
+  if (terminal_ && !quiet_ && done_ == 1)
+    show();
+}
+
+void
 BatchProgress::quarantine(const std::string& path, const std::string& reason)
 {
   ++quarantined_;
@@ -49,9 +57,14 @@ BatchProgress::tick()
   const Clock::time_point now = Clock::now();
   const auto pause =
       terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
-  if (quiet_ || now - shown_ < pause)
-    return;
-  shown_ = now;
+  if (!quiet_ && now - shown_ >= pause)
+    show();
+}
+
+void
+BatchProgress::show()
+{
+  shown_ = Clock::now();
   if (terminal_)
     fmt::print(stderr, "\r\033[K{}", state());
   else

@@ -23,11 +23,9 @@ public:
     ++skipped_;
   }
 
-  void
-  done()
-  {
-    ++done_;
-  }
+  /** \brief A file that was recognised; the first one is shown at once, since from
+   *  then on the time left is known. */
+  void done();
 
   void quarantine(const std::string& path, const std::string& reason);
 
@@ -40,6 +38,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
+  void show();
   std::string state() const;
 
   std::size_t total_;
