@@ -3,6 +3,7 @@
 #include "background.h"
 #include "drawing.h"
 #include "labels.h"
+#include "size_text.h"
 #include "wireframe.h"
 
 #include <hoist/filters/edge_kind.h>
@@ -65,20 +66,6 @@ drawEdges(cv::Mat3b& image, const cv::Mat1b& kinds, int scale)
       cv::Mat3b cell = image(cv::Rect(u * scale, v * scale, scale, scale));
       cell = (1.0 - ink) * cell + color * ink;
     }
-}
-
-std::string
-sizeText(const Cuboid& cuboid, int i)
-{
-  char text[32];
-  if (cuboid.dimension_source[i] == DimensionSource::unknown)
-    return "?";
-  std::snprintf(text,
-                sizeof text,
-                "%s%.1f",
-                cuboid.dimension_source[i] == DimensionSource::partial ? ">" : "",
-                100.0 * cuboid.size[i]);
-  return text;
 }
 
 std::vector<std::string>

@@ -55,7 +55,7 @@ addMethod(CLI::App& command, RecognizeSettings& s)
   command
       .add_option("--mode",
                   s.mode,
-                  "full: faces, edges and vertices, verified; paper: the published "
+                  "full: from faces and where they end, verified; paper: the published "
                   "method to the letter")
       ->check(CLI::IsMember({"paper", "full"}))
       ->type_name("MODE")

@@ -1,23 +1,13 @@
 #include "table.h"
 
+#include "size_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
 namespace hoist {
-namespace {
-
-std::string
-sizeCell(const Cuboid& cuboid, int i)
-{
-  if (cuboid.dimension_source[i] == DimensionSource::unknown)
-    return "?";
-  const bool bound = cuboid.dimension_source[i] == DimensionSource::partial;
-  return fmt::format("{}{:.1f}", bound ? ">" : "", 100.0 * cuboid.size[i]);
-}
-
-} // namespace
 
 std::string
 reasonsText(const Tally& tally)
@@ -66,7 +56,7 @@ CuboidTable::add(const FrameResult& result)
     const Cuboid& c = result.cuboids[i].cuboid;
     const CuboidFeatures& f = result.cuboids[i].features;
     const std::string size =
-        sizeCell(c, 0) + " x " + sizeCell(c, 1) + " x " + sizeCell(c, 2);
+        sizeText(c, 0) + " x " + sizeText(c, 1) + " x " + sizeText(c, 2);
     const std::string center =
         fmt::format("{:.3f} {:.3f} {:.3f}", c.center.x(), c.center.y(), c.center.z());
     out_ << fmt::format("{:<{}}  {:>2}  {:>22}  {:>22}  {:>5.2f}  {:<8}  {:<6}",

@@ -35,6 +35,8 @@ toString(DimensionSource source)
     return "partial";
   case DimensionSource::support:
     return "support";
+  case DimensionSource::bracketed:
+    return "bracketed";
   case DimensionSource::catalogue:
     return "catalogue";
   case DimensionSource::unknown:

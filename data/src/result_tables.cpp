@@ -24,9 +24,10 @@ number(double value)
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
-// RFC 4180.
+} // namespace
+
 std::string
-quoted(const std::string& text)
+csvField(const std::string& text)
 {
   if (text.find_first_of(",\"\r\n") == std::string::npos)
     return text;
@@ -38,8 +39,6 @@ quoted(const std::string& text)
   }
   return out + '"';
 }
-
-} // namespace
 
 std::string
 toCsv(const FrameResult& result, bool header)
@@ -53,7 +52,7 @@ toCsv(const FrameResult& result, bool header)
   for (const RecognizedCuboid& item : result.cuboids) {
     const Cuboid& c = item.cuboid;
     const Eigen::Quaterniond q(c.axes);
-    out += quoted(result.scene) + ',' + std::to_string(++i) + ',' + number(c.score) +
+    out += csvField(result.scene) + ',' + std::to_string(++i) + ',' + number(c.score) +
            ',' + toString(c.model);
     for (const double value : {c.center.x(),
                                c.center.y(),
@@ -69,10 +68,10 @@ toCsv(const FrameResult& result, bool header)
                                c.size_sigma[1],
                                c.size_sigma[2]})
       out += ',' + number(value);
-    out += ',' + quoted(item.features.color_name);
+    out += ',' + csvField(item.features.color_name);
     for (const unsigned char value : item.features.rgb)
       out += ',' + std::to_string(value);
-    out += ',' + quoted(item.features.material) + ',' + number(item.features.weight);
+    out += ',' + csvField(item.features.material) + ',' + number(item.features.weight);
     const Eigen::Vector3d world = result.pose * c.center;
     for (int k = 0; k < 3; ++k)
       out += ',' + (result.pose_known ? number(world[k]) : "");

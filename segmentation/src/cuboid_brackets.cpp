@@ -15,7 +15,7 @@ slack(const detail::CuboidView& view, const cv::Mat1f& image, int end, double li
 {
   const CuboidHypothesis& h = view.box;
   const int axis = end / 2;
-  const double side = detail::CuboidView::side(end);
+  const double side = CuboidHypothesis::side(end);
   const double step = 2 * view.pixel;
   const auto steps = static_cast<int>(std::ceil(limit / step));
   constexpr int samples = 12;       // across a face
@@ -29,8 +29,8 @@ slack(const detail::CuboidView& view, const cv::Mat1f& image, int end, double li
         continue;
       const int across = 3 - axis - face / 2;
       Eigen::Vector3d local = (h.lower + h.upper) / 2;
-      local[face / 2] = view.end(face);
-      local[axis] = view.end(end) + side * k * step;
+      local[face / 2] = h.end(face);
+      local[axis] = h.end(end) + side * k * step;
       int through = 0;
       for (int s = 0; s < samples; ++s) {
         local[across] = h.lower[across] + h.size()[across] * (s + 0.5) / samples;
@@ -48,7 +48,7 @@ slack(const detail::CuboidView& view, const cv::Mat1f& image, int end, double li
             w > 0 && 1 / w > x.z() + gate * view.sensor.sigmaZ(x.z()) + view.pixel;
       }
       if (through >= min_share * samples)
-        return k * step;
+        return k * step + view.pixel; // it was looked at between the pixels
     }
   return -1;
 }
@@ -65,17 +65,18 @@ bracketEnds(const cv::Mat1f& inverse_depth,
   const std::size_t n = hypotheses.size();
   for (std::size_t i = 0; i < n; ++i)
     for (int f = 0; f < 6; ++f) {
-      CuboidHypothesis h = hypotheses[i];
-      if (h.ends[f] != EndSource::bound)
+      if (hypotheses[i].ends[f] != EndSource::bound)
         continue;
+      CuboidHypothesis h = hypotheses[i];
       const detail::CuboidView view(h, camera, parameters.sensor, inverse_depth.size());
       if (!view.valid())
         continue;
       const double room = slack(view, inverse_depth, f, max_share * h.size()[f / 2]);
       if (room < 0)
         continue;
-      (f % 2 == 0 ? h.lower : h.upper)[f / 2] += detail::CuboidView::side(f) * room / 2;
+      h.end(f) += CuboidHypothesis::side(f) * room / 2;
       h.ends[f] = EndSource::bracketed;
+      h.room[f] = room;
       hypotheses.push_back(h);
     }
 }

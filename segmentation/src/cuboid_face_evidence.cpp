@@ -123,7 +123,7 @@ collectFaceEvidence(const CuboidView& view,
       if (near) {
         ++e.support;
         ++patch.support;
-        patch.sum += ray[axis] / w - view.end(f);
+        patch.sum += ray[axis] / w - view.box.end(f);
         evidence.support.push_back(v * image.cols + u);
       }
       else if (r > 0) {

@@ -27,11 +27,11 @@ public:
   , neighbour_(neighbour)
   , across_(neighbour / 2)
   , along_(3 - face / 2 - neighbour / 2)
-  , normal_(view.box.axes.col(face / 2) * CuboidView::side(face))
-  , offset_(view.end(face) * CuboidView::side(face))
+  , normal_(view.box.outward(face))
+  , offset_(view.box.end(face) * CuboidHypothesis::side(face))
   {
     Eigen::Vector3d center = (view.box.lower + view.box.upper) / 2;
-    center[face / 2] = view.end(face);
+    center[face / 2] = view.box.end(face);
     face_center_ = view.box.axes * center;
   }
 
@@ -40,9 +40,9 @@ public:
   place()
   {
     local_ = (view_.box.lower + view_.box.upper) / 2;
-    local_[face_ / 2] = view_.end(face_);
-    local_[across_] = view_.end(neighbour_);
-    const double side = CuboidView::side(neighbour_);
+    local_[face_ / 2] = view_.box.end(face_);
+    local_[across_] = view_.box.end(neighbour_);
+    const double side = CuboidHypothesis::side(neighbour_);
     const Eigen::Vector3d on_edge = view_.box.axes * local_;
     const Eigen::Vector3d outside =
         on_edge + side * view_.pixel * view_.box.axes.col(across_);
@@ -134,7 +134,7 @@ private:
   risesFartherOut() const
   {
     Eigen::Vector3d local = local_;
-    local[across_] += CuboidView::side(neighbour_) * 1.5 * beyond_;
+    local[across_] += CuboidHypothesis::side(neighbour_) * 1.5 * beyond_;
     cv::Point at;
     double z = 0, noise = 0;
     return look(local, at, z) && image_(at) > 0 && height(at, z, noise) > 2 * noise;
@@ -185,7 +185,7 @@ private:
     if (colors_.empty())
       return -1;
     Eigen::Vector3d on_edge = local_;
-    on_edge[across_] = view_.end(neighbour_);
+    on_edge[across_] = view_.box.end(neighbour_);
     const Eigen::Vector2d q = view_.camera.project(view_.box.axes * on_edge);
     const Eigen::Vector2d d = (Eigen::Vector2d(at.x, at.y) - q).normalized();
     std::array<cv::Vec3b, 2 * reach + 1> line;

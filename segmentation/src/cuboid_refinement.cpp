@@ -90,18 +90,6 @@ struct Sums {
   }
 };
 
-double
-endOf(const CuboidHypothesis& h, int f)
-{
-  return f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
-}
-
-double&
-endOf(CuboidHypothesis& h, int f)
-{
-  return f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
-}
-
 // The box face that a point near the surface lies on, or -1.
 int
 faceOf(const CuboidHypothesis& h,
@@ -114,7 +102,7 @@ faceOf(const CuboidHypothesis& h,
   for (int f = 0; f < 6; ++f) {
     if (!e.visible[f])
       continue;
-    const double d = std::abs(local[f / 2] - endOf(h, f));
+    const double d = std::abs(local[f / 2] - h.end(f));
     if (d < nearest) {
       nearest = d;
       best = f;
@@ -196,9 +184,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
         if (g / 2 == f / 2 || evidence.visible[g])
           continue;
         const double reach = 1.5 * step[g / 2] + 0.5 * noise;
-        const double d = std::abs(local[g / 2] - endOf(h, g)) / reach;
-        const double side = g % 2 == 0 ? -1.0 : 1.0;
-        if (d < nearest && side * h.axes.col(g / 2).dot(outward) >= 0.3) {
+        const double d = std::abs(local[g / 2] - h.end(g)) / reach;
+        if (d < nearest && h.outward(g).dot(outward) >= 0.3) {
           nearest = d;
           end = g;
         }
@@ -209,7 +196,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
       OutlinePoint point{e.point.cast<double>(), end, lateral, lateral};
       // Where the box stands on something, the two planes say better than the pixels
       // where the face ends.
-      const Eigen::Vector3d axis = h.axes.col(end / 2) * (end % 2 == 0 ? -1.0 : 1.0);
+      const Eigen::Vector3d axis = h.outward(end);
       if (e.kind == BorderKind::crease && e.neighbour >= 0 &&
           faces[e.neighbour].normal.dot(axis) < -0.96) {
         const PlanarFace& support = faces[e.neighbour];
@@ -227,7 +214,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
   // Parameters: turn about the origin, then the six ends measured from the origin.
   Vector9 ends = Vector9::Zero();
   const auto fromOrigin = [&](int f) {
-    return endOf(h, f) - h.axes.col(f / 2).dot(origin);
+    return h.end(f) - h.axes.col(f / 2).dot(origin);
   };
   for (int f = 0; f < 6; ++f)
     ends[3 + f] = fromOrigin(f);
@@ -264,6 +251,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
       double prior = 1.0; // [m]
       if (h.ends[f] == EndSource::support)
         prior = noise;
+      else if (h.ends[f] == EndSource::bracketed) // even over the interval
+        prior = h.room[f] / std::sqrt(12.0);
       else if (h.ends[f] != EndSource::bound)
         prior = 4 * pixel + noise;
       normal(3 + f, 3 + f) += 1 / (prior * prior);
@@ -289,7 +278,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
 
   h.axes = axes;
   for (int f = 0; f < 6; ++f)
-    endOf(h, f) = ends[3 + f] + axes.col(f / 2).dot(origin);
+    h.end(f) = ends[3 + f] + axes.col(f / 2).dot(origin);
   if ((h.size().array() <= 0).any() ||
       (h.center() - origin).norm() > 0.5 * h.size().norm())
     return false;

@@ -129,8 +129,8 @@ private:
     for (const Eigen::Vector3d& p : measured_) {
       if (p[z] < view_.box.lower[z] || p[z] > view_.box.upper[z])
         continue;
-      const Eigen::Vector2d q((p[x] - view_.end(f)) * detail::CuboidView::side(f),
-                              (p[y] - view_.end(g)) * detail::CuboidView::side(g));
+      const Eigen::Vector2d q((p[x] - view_.box.end(f)) * CuboidHypothesis::side(f),
+                              (p[y] - view_.box.end(g)) * CuboidHypothesis::side(g));
       if (q.x() < -size_[x] || q.y() < -size_[y])
         continue;
       const double square =

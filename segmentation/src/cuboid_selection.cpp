@@ -37,17 +37,14 @@ excludeEachOther(const CuboidHypothesis& a, const CuboidHypothesis& b)
 }
 
 void
-selectCuboids(const std::vector<CuboidCandidate>& candidates,
-              double min_score,
-              std::vector<int>& chosen)
+selectCuboids(std::vector<CuboidCandidate>& candidates, std::vector<int>& chosen)
 {
   chosen.clear();
   std::vector<int> order;
   std::vector<double> value(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const CuboidEvidence& e = candidates[i].evidence;
-    value[i] = e.value();
-    if (e.score >= min_score)
+    value[i] = candidates[i].evidence.value();
+    if (!candidates[i].rejected)
       order.push_back(static_cast<int>(i));
   }
   std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -93,6 +90,8 @@ selectCuboids(const std::vector<CuboidCandidate>& candidates,
   for (std::size_t i = 0; i < n; ++i)
     if (in[i] != 0)
       chosen.push_back(order[i]);
+    else
+      candidates[order[i]].rejected = "another explains more there";
   std::sort(chosen.begin(), chosen.end(), [&](int a, int b) {
     const double sa = candidates[a].evidence.score, sb = candidates[b].evidence.score;
     return sa > sb || (sa == sb && a < b);

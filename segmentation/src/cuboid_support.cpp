@@ -51,14 +51,8 @@ Eigen::Vector3d
 middleOf(const CuboidHypothesis& h, int f)
 {
   Eigen::Vector3d local = (h.lower + h.upper) / 2;
-  local[f / 2] = f % 2 == 0 ? h.lower[f / 2] : h.upper[f / 2];
+  local[f / 2] = h.end(f);
   return h.axes * local;
-}
-
-Eigen::Vector3d
-outwardOf(const CuboidHypothesis& h, int f)
-{
-  return (f % 2 == 0 ? -1.0 : 1.0) * h.axes.col(f / 2);
 }
 
 } // namespace
@@ -86,17 +80,18 @@ extendToSupport(const std::vector<PlanarFace>& faces,
         continue;
       constexpr double max_cosine = -0.7;
       const std::size_t k = h.contacts[f];
-      if (outwardOf(h, f).dot(faces[k].normal) < max_cosine &&
+      if (h.outward(f).dot(faces[k].normal) < max_cosine &&
           extentOf(k).contains(middleOf(h, f), margin_share * h.size().maxCoeff()))
         h.ends[f] = EndSource::seen;
     }
   const std::size_t n = hypotheses.size();
   for (std::size_t i = 0; i < n; ++i)
     for (int f = 0; f < 6; ++f) {
-      const CuboidHypothesis h = hypotheses[i];
-      if (h.ends[f] != EndSource::bound && h.ends[f] != EndSource::contact)
+      const EndSource known = hypotheses[i].ends[f];
+      if (known != EndSource::bound && known != EndSource::contact)
         continue;
-      const Eigen::Vector3d outward = outwardOf(h, f), end = middleOf(h, f);
+      const CuboidHypothesis h = hypotheses[i];
+      const Eigen::Vector3d outward = h.outward(f), end = middleOf(h, f);
       const double sigma = parameters.sensor.sigmaZ(end.z());
       const double reach = 2 * h.size().norm(); // more hidden than seen is too bold
       const double margin = margin_share * h.size().maxCoeff();
@@ -115,10 +110,7 @@ extendToSupport(const std::vector<PlanarFace>& faces,
       if (nearest >= reach)
         continue;
       CuboidHypothesis longer = h;
-      if (f % 2 == 0)
-        longer.lower[f / 2] -= nearest;
-      else
-        longer.upper[f / 2] += nearest;
+      longer.end(f) += CuboidHypothesis::side(f) * nearest;
       longer.ends[f] = EndSource::support;
       if (longer.size().maxCoeff() <= parameters.max_side)
         hypotheses.push_back(longer);

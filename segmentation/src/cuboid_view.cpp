@@ -44,8 +44,8 @@ CuboidView::CuboidView(const CuboidHypothesis& hypothesis,
   const double rim = 1.5 * pixel;
   for (int f = 0; f < 6; ++f) {
     constexpr double edge_on = 1e-4; // a plane through the camera has no inverse depth
-    double d = end(f);
-    if (side(f) * d < 0) {
+    double d = box.end(f);
+    if (CuboidHypothesis::side(f) * d < 0) {
       if (fronts == 3 || std::abs(d) < edge_on) {
         fronts = 0;
         return;
@@ -54,8 +54,10 @@ CuboidView::CuboidView(const CuboidHypothesis& hypothesis,
     }
     else {
       // not past the camera, which would make it a visible one
-      d = side(f) *
-          std::max(edge_on, side(f) * d - std::min(rim, 0.25 * box.size()[f / 2]));
+      d = CuboidHypothesis::side(f) *
+          std::max(edge_on,
+                   CuboidHypothesis::side(f) * d -
+                       std::min(rim, 0.25 * box.size()[f / 2]));
       hidden[n_hidden++] = f;
     }
     planes[f] = toPixels(box.axes.col(f / 2), d, camera);

@@ -60,19 +60,6 @@ struct CuboidView {
       inside = planes[hidden[i]].at(u, v) < enter;
     return inside;
   }
-
-  double
-  end(int face) const
-  {
-    return face % 2 == 0 ? box.lower[face / 2] : box.upper[face / 2];
-  }
-
-  /// +1 for upper faces, -1 for lower ones: times the axis, the outward normal.
-  static double
-  side(int face)
-  {
-    return face % 2 == 0 ? -1.0 : 1.0;
-  }
 };
 
 constexpr double min_depth = 0.05; // nearer is no measurement [m]

@@ -10,19 +10,8 @@ namespace {
 
 using test::cartonBeforeWall;
 using test::coveredCarton;
+using test::hypothesis;
 using test::Prepared;
-
-CuboidHypothesis
-hypothesis(const samples::Box& box)
-{
-  CuboidHypothesis h;
-  h.axes = box.axes;
-  const Eigen::Vector3d middle = box.axes.transpose() * box.center;
-  h.lower = middle - box.size / 2;
-  h.upper = middle + box.size / 2;
-  h.ends.fill(EndSource::seen);
-  return h;
-}
 
 Cuboid
 cuboid(const CuboidHypothesis& h)
@@ -278,29 +267,34 @@ candidate(double left, double width, double score, int pixels)
 TEST(CuboidSelection, TakesTheSetThatExplainsTheMost)
 {
   std::vector<int> chosen;
+  const auto select = [&](std::vector<CuboidCandidate> candidates) {
+    selectCuboids(candidates, chosen);
+    for (std::size_t i = 0; i < candidates.size(); ++i) // the losers are told why
+      EXPECT_EQ(candidates[i].rejected == nullptr,
+                std::count(chosen.begin(), chosen.end(), static_cast<int>(i)) == 1);
+  };
   // the whole against two halves
-  selectCuboids({candidate(0, 2, 0.9, 1000),
-                 candidate(0, 1, 0.95, 600),
-                 candidate(1, 1, 0.98, 600)},
-                0.5,
-                chosen);
+  select({candidate(0, 2, 0.9, 1000),
+          candidate(0, 1, 0.95, 600),
+          candidate(1, 1, 0.98, 600)});
   // the halves explain 1158 together, but each exchange alone is a loss
   EXPECT_EQ(chosen, (std::vector<int>{0}));
-  selectCuboids({candidate(0, 2, 0.9, 500),
-                 candidate(0, 1, 0.95, 600),
-                 candidate(1, 1, 0.98, 600)},
-                0.5,
-                chosen);
+  select({candidate(0, 2, 0.9, 500),
+          candidate(0, 1, 0.95, 600),
+          candidate(1, 1, 0.98, 600)});
   EXPECT_EQ(chosen, (std::vector<int>{2, 1})); // best score first
-  // too bad, and too much alike
-  selectCuboids({candidate(0, 1, 0.4, 900), candidate(5, 1, 0.6, 100)}, 0.5, chosen);
+  // what was rejected before does not stand in the way of another
+  CuboidCandidate bad = candidate(0, 1, 0.9, 900);
+  bad.rejected = "score below the minimum";
+  select({bad, candidate(0.1, 1, 0.6, 100)});
   EXPECT_EQ(chosen, (std::vector<int>{1}));
-  selectCuboids({candidate(0, 1, 0.7, 900), candidate(0.1, 1, 0.9, 900)}, 0.5, chosen);
+  // too much alike
+  select({candidate(0, 1, 0.7, 900), candidate(0.1, 1, 0.9, 900)});
   EXPECT_EQ(chosen, (std::vector<int>{1}));
   // neighbours that touch do not exclude each other
-  selectCuboids({candidate(0, 1, 0.7, 900), candidate(0.9, 1, 0.9, 900)}, 0.5, chosen);
+  select({candidate(0, 1, 0.7, 900), candidate(0.9, 1, 0.9, 900)});
   EXPECT_EQ(chosen.size(), 2U);
-  selectCuboids({}, 0.5, chosen);
+  select({});
   EXPECT_TRUE(chosen.empty());
 }
 

@@ -14,6 +14,19 @@
 namespace hoist {
 namespace test {
 
+/** \brief A true box as the full mode would put it. */
+inline CuboidHypothesis
+hypothesis(const samples::Box& box)
+{
+  CuboidHypothesis h;
+  h.axes = box.axes;
+  const Eigen::Vector3d middle = box.axes.transpose() * box.center;
+  h.lower = middle - box.size / 2;
+  h.upper = middle + box.size / 2;
+  h.ends.fill(EndSource::seen);
+  return h;
+}
+
 /** \brief Faces and outlines of a frame, as the full mode makes them. */
 struct Prepared {
   ExactFrame frame;

@@ -242,11 +242,12 @@ Batch::merge(Store& store, const StopSignal& stop) const
                counts.missing > 1 ? " and others" : "");
     return exit_retry;
   }
-  fmt::print("{} files, {} of them done before, {} quarantined; {} cuboids: {}\n",
+  fmt::print("{} files, {} of them done before, {} quarantined; {} {}: {}\n",
              counts.files,
              settings_.merge_only ? counts.files : skipped_,
              counts.quarantined,
              counts.cuboids,
+             counts.cuboids == 1 ? "cuboid" : "cuboids",
              (fs::path(settings_.inputs.out) / "report.html").string());
   return counts.quarantined > 0 ? exit_quarantined : exit_ok;
 }

@@ -1,5 +1,6 @@
 #include "batch/report.h"
 
+#include "size_text.h"
 #include "table.h"
 
 #include <fmt/format.h>
@@ -87,13 +88,7 @@ cuboidLine(const RecognizedCuboid& item)
   std::string out;
   for (int i = 0; i < 3; ++i) {
     out += i > 0 ? " × " : "";
-    const DimensionSource source = item.cuboid.dimension_source[i];
-    if (source == DimensionSource::unknown)
-      out += "?";
-    else
-      out += fmt::format("{}{:.1f}",
-                         source == DimensionSource::partial ? "&gt;" : "",
-                         100 * item.cuboid.size[i]);
+    out += escaped(sizeText(item.cuboid, i));
   }
   out += fmt::format(" cm, {:.2f}", item.cuboid.score);
   if (!item.features.color_name.empty())

@@ -11,20 +11,6 @@
 namespace hoist {
 namespace {
 
-std::string
-quoted(const std::string& text)
-{
-  if (text.find_first_of(",\"\r\n") == std::string::npos)
-    return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    out += c;
-    if (c == '"')
-      out += c;
-  }
-  return out + '"';
-}
-
 [[noreturn]] void
 fail(const std::filesystem::path& path)
 {
@@ -78,8 +64,8 @@ SummaryCsv::add(const SummaryEntry& entry)
   const RecordHead& head = entry.head;
   const FrameResult& result = entry.result;
   const bool done = head.verdict.cause == Cause::none;
-  std::string line = quoted(head.path) + ',' + head.status() + ',' +
-                     toString(head.verdict.cause) + ',' + quoted(head.verdict.reason);
+  std::string line = csvField(head.path) + ',' + head.status() + ',' +
+                     toString(head.verdict.cause) + ',' + csvField(head.verdict.reason);
   double best = 0;
   for (const RecognizedCuboid& item : result.cuboids)
     best = std::max(best, item.cuboid.score);
@@ -90,7 +76,7 @@ SummaryCsv::add(const SummaryEntry& entry)
                      std::to_string(result.width) + ',' + std::to_string(result.height)
                : ",,,,";
   line += ',' + (head.stamp.exists ? std::to_string(head.stamp.size) : "");
-  files_.write(line + ',' + quoted(entry.record) + "\r\n");
+  files_.write(line + ',' + csvField(entry.record) + "\r\n");
 
   FrameResult named = result;
   named.scene = head.path;

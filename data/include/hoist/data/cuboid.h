@@ -27,6 +27,7 @@ enum class DimensionSource {
   measured,  ///< both ends were seen
   partial,   ///< one end is hidden: the size is a lower bound
   support,   ///< one end is the plane it stands on
+  bracketed, ///< one end is hidden, but known to an interval that its sigma covers
   catalogue, ///< a known box
   unknown    ///< not observable in this view; the size is not a measurement
 };
@@ -34,7 +35,7 @@ enum class DimensionSource {
 /** \brief Names as they appear in files: "I", "II", "faces", "parallel", "face". */
 HOIST_DATA_EXPORT const char* toString(CuboidModel model);
 
-/** \brief "measured", "partial", "support", "catalogue", "unknown". */
+/** \brief "measured", "partial", "support", "bracketed", "catalogue", "unknown". */
 HOIST_DATA_EXPORT const char* toString(DimensionSource source);
 
 /** \brief A box with pose, size and the evidence for it.

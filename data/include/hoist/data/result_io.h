@@ -27,6 +27,9 @@ HOIST_DATA_EXPORT std::string toJson(const FrameResult& result, int indent = 1);
 HOIST_DATA_EXPORT FrameResult fromJson(const std::string& text,
                                        const std::string& name = "JSON");
 
+/** \brief A text as one field of a CSV line (RFC 4180): in quotes where it must be. */
+HOIST_DATA_EXPORT std::string csvField(const std::string& text);
+
 /** \brief One line per cuboid, with a header line; RFC 4180, decimal points.
  *  \param header false to append to another table */
 HOIST_DATA_EXPORT std::string toCsv(const FrameResult& result, bool header = true);

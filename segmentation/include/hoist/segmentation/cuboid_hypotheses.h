@@ -18,7 +18,7 @@ enum class EndSource : unsigned char {
   seen,      ///< outline, crease or plane
   contact,   ///< something that does not carry the box touches it there; it may go on
              ///< behind that
-  bracketed, ///< covered, but where it was put to within a seventh of the side:
+  bracketed, ///< covered, but known to lie in an interval of at most 15 % of the side:
              ///< farther out the background is seen
   support    ///< covered; taken from the surface it stands on or leans against
 };
@@ -35,6 +35,8 @@ struct CuboidHypothesis {
   std::array<EndSource, 6> ends{};
   /// Faces that touch the box from in front at its ends, -1 where none.
   std::array<int, 6> contacts{-1, -1, -1, -1, -1, -1};
+  /// Length of the interval in which a bracketed end lies [m], 0 at other ends.
+  std::array<double, 6> room{};
   std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
   CuboidModel model = CuboidModel::faces;
 
@@ -47,6 +49,30 @@ struct CuboidHypothesis {
   size() const
   {
     return upper - lower;
+  }
+
+  /// Where the box ends along its axis: lower 0, upper 0, lower 1, ...
+  double
+  end(int f) const
+  {
+    return f % 2 == 0 ? lower[f / 2] : upper[f / 2];
+  }
+  double&
+  end(int f)
+  {
+    return f % 2 == 0 ? lower[f / 2] : upper[f / 2];
+  }
+
+  /// +1 at upper ends, -1 at lower ones: times the axis, the outward normal.
+  static double
+  side(int f)
+  {
+    return f % 2 == 0 ? -1.0 : 1.0;
+  }
+  Eigen::Vector3d
+  outward(int f) const
+  {
+    return side(f) * axes.col(f / 2);
   }
 };
 
@@ -75,10 +101,14 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
                      std::vector<CuboidHypothesis>& hypotheses,
                      Diagnostics& diagnostics);
 
-/** \brief Adds, for each hypothesis with covered ends, the boxes that reach on to the
- *  surface behind the cover: a large face parallel to the end and beyond it.
+/** \brief Settles what touches the boxes, and adds those that reach on to a surface.
  *
- * Nothing seen contradicts such a box; the end is marked EndSource::support.
+ * A contact that lies under the box, seen from its end, carries it: the end becomes
+ * EndSource::seen. Then, for each end that is still covered or touched, a box is added
+ * that reaches on to the nearest face that is parallel to the end and beyond it;
+ * nothing seen contradicts it, and its end is marked EndSource::support.
+ *
+ * \param hypotheses changed and appended to
  */
 HOIST_SEGMENTATION_EXPORT void
 extendToSupport(const std::vector<PlanarFace>& faces,
@@ -89,8 +119,11 @@ extendToSupport(const std::vector<PlanarFace>& faces,
 /** \brief Looks behind what covers an end of a box.
  *
  * Where a face that reached on by more than 15 % of the side would hide background that
- * the sensor saw, the end lies in between; it is put into the middle and marked
- * EndSource::bracketed. */
+ * the sensor saw, the end lies in between: a box is added whose end is put into the
+ * middle and marked EndSource::bracketed.
+ *
+ * \param hypotheses appended to
+ */
 HOIST_SEGMENTATION_EXPORT void bracketEnds(const cv::Mat1f& inverse_depth,
                                            const Intrinsics& camera,
                                            const CuboidHypothesisParameters& parameters,

@@ -17,7 +17,7 @@ namespace hoist {
 /** \brief Which method finds the cuboids. */
 enum class SegmentationMode {
   paper, ///< the circular process of the paper's Figure 4, to the letter (PaperMode)
-  full   ///< from faces, edges and vertices, refined and verified (FullMode)
+  full   ///< from faces and where they end, refined and verified (FullMode)
 };
 
 /** \brief All cuboids of a frame, or of a part of it such as a detector's box.
@@ -170,6 +170,31 @@ public:
   getDiagnostics() const
   {
     return diagnostics_;
+  }
+
+  /** \brief Full mode: every box that the last call thought of, with the reason why it
+   *  is not reported; empty in paper mode. */
+  std::vector<CuboidVerdict>
+  getVerdicts() const
+  {
+    return mode_ == SegmentationMode::full ? full_.verdicts()
+                                           : std::vector<CuboidVerdict>();
+  }
+
+  /** \brief Those of them that cover pixel (u, v). */
+  std::vector<CuboidVerdict>
+  getVerdictsAt(int u, int v) const
+  {
+    return mode_ == SegmentationMode::full ? full_.verdictsAt(u, v)
+                                           : std::vector<CuboidVerdict>();
+  }
+
+  /** \brief Full mode: the flat face at pixel (u, v), nullptr where there is none;
+   * valid until the next call of segment(). */
+  const PlanarFace*
+  getFaceAt(int u, int v) const
+  {
+    return mode_ == SegmentationMode::full ? full_.faceAt(u, v) : nullptr;
   }
 
 private:

@@ -5,11 +5,12 @@
 #include <hoist/data/result.h>
 #include <hoist/data/sensor_model.h>
 #include <hoist/segmentation/export.h>
+#include <hoist/segmentation/planar_faces.h>
 
 #include <opencv2/core.hpp>
 
-#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace hoist {
@@ -24,7 +25,23 @@ struct FullModeParameters {
   int max_cuboids = 0;     ///< keep the best n; 0 = all
 };
 
-/** \brief All cuboids of a frame from its faces, edges and vertices.
+/** \brief A box that was thought of, and what became of it. */
+struct CuboidVerdict {
+  Cuboid cuboid;        ///< as refined, if it came so far
+  std::string rejected; ///< why it is not reported; "" if it is
+  double flat = 0;      ///< share of its uncovered area that lies on its faces
+  double outline = 0;   ///< share of its outline where the surface ends
+  double trust = 0;     ///< how well its ends are known, in [0, 1]
+
+  /// Reported ones first, then those that came nearest to it.
+  double
+  rank() const
+  {
+    return (rejected.empty() ? 2 : 0) + cuboid.score + flat * outline * trust;
+  }
+};
+
+/** \brief All cuboids of a frame from its flat faces and where they end.
  *
  * Holds the buffers that are reused from frame to frame; not thread safe, use one per
  * thread.
@@ -47,7 +64,25 @@ public:
                std::vector<Cuboid>& cuboids,
                Diagnostics& diagnostics);
 
+  /** \brief All boxes that the last call thought of, rank() descending. */
+  std::vector<CuboidVerdict> verdicts() const;
+
+  /** \brief Those of them that cover a pixel, whatever may stand in front. */
+  std::vector<CuboidVerdict> verdictsAt(int u, int v) const;
+
+  /** \brief The flat face at a pixel in the last call, nullptr where there is none;
+   * valid until the next. */
+  const PlanarFace* faceAt(int u, int v) const;
+
 private:
+  void findFaces(const FrameImages& images,
+                 const cv::Mat1b& mask,
+                 const FullModeParameters& parameters,
+                 Diagnostics& diagnostics);
+  void makeHypotheses(const FrameImages& images,
+                      const FullModeParameters& parameters,
+                      Diagnostics& diagnostics);
+
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;
 };
