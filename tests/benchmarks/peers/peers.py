@@ -74,6 +74,9 @@ def main():
     parser.add_argument("--out", help="keeps the boxes of every pipeline here")
     args = parser.parse_args()
 
+    for path in (args.program, args.scenes, args.truth, args.evaluator):
+        if not os.path.exists(path):
+            parser.error(f"{path}: there is no such file or folder")
     files = sorted(
         os.path.join(args.scenes, name)
         for name in os.listdir(args.scenes) if name.lower().endswith(".pcd"))
