@@ -3,6 +3,7 @@
 #include "background.h"
 #include "drawing.h"
 #include "labels.h"
+#include "palette.h"
 #include "size_text.h"
 #include "wireframe.h"
 
@@ -20,26 +21,6 @@ namespace hoist {
 namespace {
 
 constexpr int min_columns = 1280;
-
-// Ten colours far apart for every eye: chosen one after the other, each as far as
-// possible from all before in L*a*b*, least over normal, protanopic and deuteranopic
-// sight (Machado et al. 2009), light enough for a dark picture; BGR.
-const cv::Scalar palette[] = {{0, 165, 225},
-                              {255, 0, 195},
-                              {255, 240, 0},
-                              {105, 0, 255},
-                              {180, 105, 135},
-                              {150, 255, 165},
-                              {180, 180, 255},
-                              {30, 75, 210},
-                              {255, 180, 30},
-                              {105, 135, 75}};
-
-const cv::Scalar color_edge(200, 200, 90);
-const cv::Scalar occlusion_edge(60, 110, 255);
-const cv::Scalar crease_edge(255, 110, 220);
-const cv::Scalar segment_color(70, 235, 255);
-const cv::Scalar vertex_color(255, 255, 255);
 
 bool
 anyOf(const cv::Mat1b& kinds, int kind)
@@ -60,8 +41,9 @@ drawEdges(cv::Mat3b& image, const cv::Mat1b& kinds, int scale)
         continue;
       const bool occlusion = (kind & EDGE_OCCLUSION) != 0;
       const bool crease = !occlusion && (kind & EDGE_CREASE) != 0;
-      const cv::Scalar& color =
-          occlusion ? occlusion_edge : (crease ? crease_edge : color_edge);
+      const cv::Scalar& color = occlusion
+                                    ? occlusion_edge_color
+                                    : (crease ? crease_edge_color : color_edge_color);
       const double ink = occlusion ? 0.5 : (crease ? 0.25 : 0.35);
       cv::Mat3b cell = image(cv::Rect(u * scale, v * scale, scale, scale));
       cell = (1.0 - ink) * cell + color * ink;
@@ -155,19 +137,13 @@ drawVertices(cv::Mat3b& image, const OverlayContents& contents, int scale, int r
   }
 }
 
-const cv::Scalar&
-colorOf(std::size_t cuboid)
-{
-  return palette[cuboid % (sizeof palette / sizeof *palette)];
-}
-
 void
 tint(cv::Mat3b& image, const cv::Mat1i& owners)
 {
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)
       if (owners(y, x) >= 0) {
-        const cv::Scalar& color = colorOf(static_cast<std::size_t>(owners(y, x)));
+        const cv::Scalar color = cuboidColor(static_cast<std::size_t>(owners(y, x)));
         cv::Vec3b& pixel = image(y, x);
         for (int c = 0; c < 3; ++c)
           pixel[c] =
@@ -187,9 +163,9 @@ drawWireframes(cv::Mat3b& image,
         if (piece.hidden != hidden)
           continue;
         if (hidden)
-          drawDashedLine(image, piece.from, piece.to, colorOf(i), 1, 4 * scale);
+          drawDashedLine(image, piece.from, piece.to, cuboidColor(i), 1, 4 * scale);
         else
-          drawHaloLine(image, piece.from, piece.to, colorOf(i), scale);
+          drawHaloLine(image, piece.from, piece.to, cuboidColor(i), scale);
       }
 }
 
@@ -215,11 +191,11 @@ footer(const OverlayContents& contents, int width, int text_scale)
 {
   std::vector<LegendEntry> legend;
   if (anyOf(contents.edges, EDGE_COLOR))
-    legend.push_back({"colour edge", color_edge, LegendMark::square});
+    legend.push_back({"colour edge", color_edge_color, LegendMark::square});
   if (anyOf(contents.edges, EDGE_OCCLUSION))
-    legend.push_back({"occlusion edge", occlusion_edge, LegendMark::square});
+    legend.push_back({"occlusion edge", occlusion_edge_color, LegendMark::square});
   if (anyOf(contents.edges, EDGE_CREASE))
-    legend.push_back({"crease edge", crease_edge, LegendMark::square});
+    legend.push_back({"crease edge", crease_edge_color, LegendMark::square});
   if (!contents.segments.empty())
     legend.push_back({"segment", segment_color, LegendMark::line});
   if (!contents.vertices.empty())
@@ -257,7 +233,7 @@ drawOverlay(const OverlayContents& contents)
   LabelPlacer labels(owners, text_scale);
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     labels.add(
-        labelText(contents.result.cuboids[i], i), static_cast<int>(i), colorOf(i));
+        labelText(contents.result.cuboids[i], i), static_cast<int>(i), cuboidColor(i));
   labels.draw(image);
 
   cv::Mat3b picture;

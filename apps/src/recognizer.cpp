@@ -112,32 +112,36 @@ Recognizer::balanced(const Frame& frame) const
   return cloud;
 }
 
+cv::Mat1b
+Recognizer::edgeKinds(const Frame& frame) const
+{
+  if (settings_.mode == "paper") { // the contours that it worked with
+    const int width = frame.images->width();
+    cv::Mat1b kinds(
+        frame.images->height(), width, static_cast<unsigned char>(EDGE_NONE));
+    for (const pcl::index_t i : segmentation_.getEdgePixels())
+      kinds(i / width, i % width) = EDGE_COLOR;
+    return kinds;
+  }
+  EdgePixels<pcl::PointXYZRGB> edges;
+  edges.setInputCloud(frame.loaded.cloud);
+  edges.setFrameImages(frame.images);
+  edges.setSensorModel(settings_.full.sensor);
+  if (!frame.images->hasColor())
+    edges.setKinds(EDGE_OCCLUSION | EDGE_CREASE);
+  pcl::Indices indices;
+  edges.filter(indices);
+  return edges.getKindImage().clone();
+}
+
 cv::Mat3b
 Recognizer::overlay(const Frame& frame, const FrameResult& result) const
 {
-  OverlayContents contents{*frame.images,
-                           result,
-                           {},
-                           segmentation_.getSegments(),
-                           segmentation_.getVertices()};
-  if (settings_.mode == "paper") { // the contours that it worked with
-    contents.edges =
-        cv::Mat1b(result.height, result.width, static_cast<unsigned char>(EDGE_NONE));
-    for (const pcl::index_t i : segmentation_.getEdgePixels())
-      contents.edges(i / result.width, i % result.width) = EDGE_COLOR;
-  }
-  else {
-    EdgePixels<pcl::PointXYZRGB> edges;
-    edges.setInputCloud(frame.loaded.cloud);
-    edges.setFrameImages(frame.images);
-    edges.setSensorModel(settings_.full.sensor);
-    if (!frame.images->hasColor())
-      edges.setKinds(EDGE_OCCLUSION | EDGE_CREASE);
-    pcl::Indices indices;
-    edges.filter(indices);
-    contents.edges = edges.getKindImage().clone();
-  }
-  return drawOverlay(contents);
+  return drawOverlay({*frame.images,
+                      result,
+                      edgeKinds(frame),
+                      segmentation_.getSegments(),
+                      segmentation_.getVertices()});
 }
 
 } // namespace hoist

@@ -36,6 +36,17 @@ public:
   /** \brief The picture of the last result. */
   cv::Mat3b overlay(const Frame& frame, const FrameResult& result) const;
 
+  /** \brief EdgeKind flags of every pixel, as the overlay shows them: in paper mode the
+   *  contours that the last frame was recognised by, else those of EdgePixels. */
+  cv::Mat1b edgeKinds(const Frame& frame) const;
+
+  /** \brief What the last frame was recognised by. */
+  const CuboidSegmentation<pcl::PointXYZRGB>&
+  segmentation() const
+  {
+    return segmentation_;
+  }
+
 private:
   pcl::PointCloud<pcl::PointXYZRGB>::ConstPtr balanced(const Frame& frame) const;
 
