@@ -10,6 +10,8 @@ namespace hoist {
 namespace detail {
 namespace {
 
+constexpr int samples = 3000; // of a close look [px]
+
 // Boxes that differ by less than refinement moves them, whatever their axes are called,
 // and whose ends are known alike. Reach: how far refinement looks for an end [m].
 bool
@@ -99,20 +101,25 @@ CuboidJudge::judge(std::vector<CuboidCandidate>& candidates)
   }
 }
 
+bool
+CuboidJudge::refine(CuboidCandidate& c) const
+{
+  return refineCuboid(c.hypothesis,
+                      c.evidence,
+                      images_.inverse_depth,
+                      labels_,
+                      faces_,
+                      borders_,
+                      images_.intrinsics,
+                      sensor_,
+                      c.covariance);
+}
+
 void
 CuboidJudge::judgeClosely(CuboidCandidate& c) const
 {
-  constexpr int samples = 3000;
   verify(c, samples);
-  c.refined = refineCuboid(c.hypothesis,
-                           c.evidence,
-                           images_.inverse_depth,
-                           labels_,
-                           faces_,
-                           borders_,
-                           images_.intrinsics,
-                           sensor_,
-                           c.covariance);
+  c.refined = refine(c);
   if (c.refined)
     verify(c, samples);
   // Chosen on rendered tables at 0.8 to 3 m: no box of 606 exceeds 1.05, and of 178
@@ -131,6 +138,13 @@ CuboidJudge::judgeClosely(CuboidCandidate& c) const
 void
 CuboidJudge::judgeFully(CuboidCandidate& c) const
 {
+  // Its ends are where they belong by now, so that more of the outline is in reach.
+  CuboidCandidate again = c;
+  if (c.refined && refine(again)) {
+    verify(again, samples);
+    if (again.evidence.score >= c.evidence.score)
+      c = again;
+  }
   verify(c, std::numeric_limits<int>::max());
   if (c.evidence.score < parameters_.min_score)
     c.rejected = "score below the minimum";

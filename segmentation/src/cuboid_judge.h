@@ -38,6 +38,7 @@ public:
 
 private:
   void verify(CuboidCandidate& candidate, int max_samples) const;
+  bool refine(CuboidCandidate& candidate) const;
   void judgeClosely(CuboidCandidate& candidate) const;
 
   const FrameImages& images_;

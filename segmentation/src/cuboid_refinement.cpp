@@ -27,10 +27,13 @@ struct FacePixel {
 };
 
 struct OutlinePoint {
-  Eigen::Vector3d point; // [m]
-  int end;               // of the box, lower 0, upper 0, lower 1, ...
-  double sigma;          // along the end's axis [m]
-  double start_sigma;    // the same while the ends are still rough [m]
+  Eigen::Vector3d point;           // [m]
+  int end;                         // of the box, lower 0, upper 0, lower 1, ...
+  double sigma;                    // along the end's axis [m]
+  double start_sigma;              // the same while the ends are still rough [m]
+  int face;                        // of the box, whose outline it belongs to
+  Eigen::Vector2d inside, outside; // the pixels on both sides of it [px]
+  bool on_plane;                   // moved onto the plane that carries the box
 };
 
 // Tukey's biweight of a residual in units of sigma, zero beyond c.
@@ -109,6 +112,50 @@ faceOf(const CuboidHypothesis& h,
     }
   }
   return best;
+}
+
+// Where the pixels of an outline do not contradict each other, the end lies between the
+// last one on the face and the first one beyond it: finer than a pixel on a slanted
+// edge. Any end in between gives the same pixels, so the middle is taken.
+void
+settleBetweenPixels(const std::vector<OutlinePoint>& outline,
+                    const Intrinsics& camera,
+                    double pixel,
+                    CuboidHypothesis& h)
+{
+  struct Interval {
+    double last = -std::numeric_limits<double>::infinity();
+    double first = std::numeric_limits<double>::infinity();
+    int points = 0;
+    bool planes = false; // better known than by pixels
+  };
+  std::array<Interval, 6> intervals;
+  for (const OutlinePoint& p : outline) {
+    Interval& in = intervals[p.end];
+    in.planes |= p.on_plane;
+    const int axis = p.end / 2, across = 3 - p.face / 2 - axis;
+    const auto lift = [&](const Eigen::Vector2d& q) -> Eigen::Vector3d {
+      const Eigen::Vector3d ray = h.axes.transpose() * camera.ray(q.x(), q.y());
+      return ray * (h.end(p.face) / ray[p.face / 2]);
+    };
+    const double side = CuboidHypothesis::side(p.end);
+    in.last = std::max(in.last, side * lift(p.inside)[axis]);
+    const Eigen::Vector3d beyond = lift(p.outside);
+    // near the corner it may lie beyond another end as well, and says nothing then
+    const double margin = 1.5 * pixel;
+    if (beyond[across] < h.lower[across] + margin ||
+        beyond[across] > h.upper[across] - margin)
+      continue;
+    in.first = std::min(in.first, side * beyond[axis]);
+    ++in.points;
+  }
+  for (int g = 0; g < 6; ++g) {
+    const Interval& in = intervals[g];
+    constexpr int min_points = 6;
+    const double side = CuboidHypothesis::side(g);
+    if (!in.planes && in.points >= min_points && in.last < in.first)
+      h.end(g) = side * (in.last + in.first) / 2;
+  }
 }
 
 } // namespace
@@ -193,7 +240,21 @@ refineCuboid(CuboidHypothesis& hypothesis,
       if (end < 0)
         continue;
       const double lateral = lateral_noise * step[end / 2];
-      OutlinePoint point{e.point.cast<double>(), end, lateral, lateral};
+      // which way the pixel's side looks
+      const Eigen::Vector2d pixel = e.pixel.cast<double>();
+      const Eigen::Vector2d ahead =
+          camera.project(e.point.cast<double>() + 1e-3 * z * outward) - pixel;
+      const Eigen::Vector2d half = pixel.x() != std::floor(pixel.x())
+                                       ? Eigen::Vector2d(ahead.x() > 0 ? 0.5 : -0.5, 0)
+                                       : Eigen::Vector2d(0, ahead.y() > 0 ? 0.5 : -0.5);
+      OutlinePoint point{e.point.cast<double>(),
+                         end,
+                         lateral,
+                         lateral,
+                         f,
+                         pixel - half,
+                         pixel + half,
+                         false};
       // Where the box stands on something, the two planes say better than the pixels
       // where the face ends.
       const Eigen::Vector3d axis = h.outward(end);
@@ -205,6 +266,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
         if (std::abs(t) < 2 * step[end / 2] + noise) {
           point.point += t * axis;
           point.sigma = 0.5 * noise;
+          point.on_plane = true;
         }
       }
       outline.push_back(point);
@@ -279,6 +341,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
   h.axes = axes;
   for (int f = 0; f < 6; ++f)
     h.end(f) = ends[3 + f] + axes.col(f / 2).dot(origin);
+  settleBetweenPixels(outline, camera, pixel, h);
   if ((h.size().array() <= 0).any() ||
       (h.center() - origin).norm() > 0.5 * h.size().norm())
     return false;

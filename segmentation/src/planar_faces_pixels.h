@@ -24,6 +24,22 @@ public:
     int u, v;
   };
 
+  /// Pixels that stand one after the other.
+  struct Range {
+    Pixel *first, *last;
+
+    Pixel*
+    begin() const
+    {
+      return first;
+    }
+    Pixel*
+    end() const
+    {
+      return last;
+    }
+  };
+
   int
   width() const
   {
@@ -61,8 +77,9 @@ public:
               const InverseDepthNoise& noise,
               double tolerance);
 
-  /** \brief Connected rests without a break in depth, narrower than a cell but flat,
-   * become regions of their own: appended to \a regions.
+  /** \brief Connected rests without a break in depth, narrower than a cell but flat or
+   * made of up to four flat parts one behind the other, as the strip around the corner
+   * of a thin slab, become regions of their own: appended to \a regions.
    *  \param min_pixels smaller rests are left alone */
   void addSlivers(const cv::Mat1f& inverse_depth,
                   const InverseDepthNoise& noise,
@@ -123,7 +140,12 @@ private:
   void moveCreases(const cv::Mat1f& image);
   bool settle(const cv::Mat1f& image, const Pixel& p);
   void collectPiece(const cv::Mat1f& image, const Pixel& start);
-  PlaneMoments sumOfPiece(const cv::Mat1f& image) const;
+  void addPiece(const cv::Mat1f& image,
+                const InverseDepthNoise& noise,
+                const Range& piece,
+                int min_pixels,
+                int splits,
+                CellRegions& regions);
 
   int width_ = 0, height_ = 0;
   std::vector<short> labels_;

@@ -69,10 +69,12 @@ TEST_P(FullModeExact, FindsEveryBoxToTheMillimetre)
   }
   std::sort(errors.begin(), errors.end());
   RecordProperty("seeds_beyond_1_mm", beyond);
-  EXPECT_LT(errors[errors.size() / 2], 2e-4);
+  EXPECT_LT(errors[errors.size() / 2], 1e-4);
+  // Beyond a millimetre is one of these hundred, afloat: its far end lies along a row
+  // of pixels 5 mm apart, and every place within 2.9 mm gives the same frame.
   EXPECT_GE(
       std::count_if(errors.begin(), errors.end(), [](double x) { return x < 1e-3; }),
-      22);
+      24);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -84,9 +86,30 @@ INSTANTIATE_TEST_SUITE_P(
              (law.param.max_aspect > 4 ? "Slabs" : "Boxes");
     });
 
+// A slab's sides are strips a few pixels wide that meet at a corner.
+TEST(FullModeScenes, ThinSlabsOnTheGroundAreFound)
+{
+  samples::RandomBoxOptions options;
+  options.on_ground = true;
+  options.max_aspect = 20;
+  options.min_face_px = 800;
+  options.max_distance = 2.5;
+  FullModeParameters parameters;
+  parameters.min_side = 0.002;
+  for (std::uint64_t seed = 200; seed < 250; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const samples::Scene scene = samples::randomBoxScene(seed, options);
+    FrameImages images;
+    test::renderedFrame(scene, images);
+    const auto found = test::segment(images, parameters);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_GT(test::iou(found[0], test::toCuboid(scene.boxes[0])), 0.95);
+  }
+}
+
 TEST(FullModeScenes, NoisyTablesAreReadRight)
 {
-  // measured: precision 0.96, recall 0.93
+  // measured: precision 0.988, recall 0.933
   samples::RandomTableOptions options;
   options.cylinders = 2;
   test::Matches matches;
@@ -105,11 +128,11 @@ TEST(FullModeScenes, NoisyTablesAreReadRight)
   RecordProperty("precision", std::to_string(matches.precision()));
   RecordProperty("recall", std::to_string(matches.recall()));
   EXPECT_GE(matches.hits + matches.misses, 60);
-  EXPECT_GE(matches.precision(), 0.9);
-  EXPECT_GE(matches.recall(), 0.85);
+  EXPECT_GE(matches.precision(), 0.95);
+  EXPECT_GE(matches.recall(), 0.9);
 }
 
-// Measured over 78 scenes: 110 hits, 10 misses, 6 wrong, F1 = 0.93.
+// Measured over 78 scenes: 117 hits, 3 misses, 2 wrong, F1 = 0.979.
 TEST(FullModeScenes, RealScenes)
 {
   HOIST_SKIP_WITHOUT_REAL_DATA();
@@ -138,7 +161,7 @@ TEST(FullModeScenes, RealScenes)
   }
   RecordProperty("f1", std::to_string(matches.f1()));
   EXPECT_GE(scenes, 70);
-  EXPECT_GE(matches.f1(), 0.90) << matches.hits << " hits, " << matches.misses
+  EXPECT_GE(matches.f1(), 0.96) << matches.hits << " hits, " << matches.misses
                                 << " misses, " << matches.wrong << " wrong";
 }
 
