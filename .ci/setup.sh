@@ -14,6 +14,7 @@ hoist_packages=(
   cmake g++ ninja-build pkg-config
   libpcl-dev libopencv-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev libsqlite3-dev
+  libembree-dev libassimp-dev sweethome3d-furniture
 )
 hoist_test_packages=(libgtest-dev python3)
 

@@ -19,6 +19,9 @@ Action addConvertCommand(CLI::App& program);
 
 Action addBatchCommand(CLI::App& program);
 
+/** \brief Only where the simulator is built (HOIST_BUILD_SIMULATION). */
+Action addSimulateCommand(CLI::App& program);
+
 /** \brief The hidden command that `hoist batch` starts its workers with. */
 Action addBatchWorkerCommand(CLI::App& program);
 

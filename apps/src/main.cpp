@@ -83,6 +83,9 @@ main(int argc, char** argv)
                                               hoist::addInfoCommand(program),
                                               hoist::addConvertCommand(program),
                                               hoist::addBatchCommand(program),
+#ifdef HOIST_WITH_SIMULATION
+                                              hoist::addSimulateCommand(program),
+#endif
                                               hoist::addBatchWorkerCommand(program)};
   try {
     const std::string unknown = unknownWord(program, argc, argv);
