@@ -46,6 +46,19 @@ public:
   , lens_(lens)
   , seed_(subSeed(scene.seed, "depth"))
   {
+    if (sensor_.kind == SensorKind::kinect) {
+      // a pixel more on every side, for the neighbourhoods of those at the border
+      grain_.create(layer.depth.rows + 2, layer.depth.cols + 2);
+      for (int v = 0; v < grain_.rows; ++v)
+        for (int u = 0; u < grain_.cols; ++u)
+          grain_(v, u) = static_cast<float>(hashNormal(seed_ + 21, u, v));
+      inverse_.create(layer.depth.size());
+      for (int v = 0; v < inverse_.rows; ++v)
+        for (int u = 0; u < inverse_.cols; ++u)
+          inverse_(v, u) =
+              layer.depth(v, u) > 0 ? static_cast<float>(1 / layer.depth(v, u)) : 0.0f;
+      nearest_ = 1.05 * *std::max_element(inverse_.begin(), inverse_.end());
+    }
   }
 
   float
@@ -161,9 +174,30 @@ private:
     return share > 0 && sensor_.grazing_loss > 0 && blotch(u, v, 6, seed_ + 13) < share;
   }
 
+  // The way to the projector stays in the pixel's row and comes nearer by a disparity
+  // per column. It is free if all that is seen there lies behind it; else a ray tells.
+  bool
+  mayBeShadowed(int x, int y) const
+  {
+    const double per_column = 1 / (sensor_.camera.fx * sensor_.baseline);
+    if (sensor_.baseline < 0 || sensor_.distortion != std::array<double, 5>{})
+      return true;
+    const double own = inverse_(y, x);
+    for (int u = x + 1; u < inverse_.cols; ++u) {
+      const double line = own + (u - x) * per_column;
+      if (line > nearest_)
+        return false;
+      if (inverse_(y, u) > line - 0.5 * per_column)
+        return true;
+    }
+    return true; // what is beyond the border is not seen
+  }
+
   bool
   inShadow(int x, int y) const
   {
+    if (!mayBeShadowed(x, y))
+      return false;
     const Eigen::Vector3d p = layer_.depth(y, x) * lens_.ray(x, y);
     const cv::Vec3f& n = layer_.normal(y, x);
     const Eigen::Vector3d start = p + Eigen::Vector3d(n[0], n[1], n[2]) * 1e-3 * p.z();
@@ -181,7 +215,7 @@ private:
     double common = 0;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
-        common += hashNormal(seed_ + 21, u + i, v + j) / 3.0;
+        common += grain_(v + 1 + j, u + 1 + i) / 3.0;
     const double error = 0.8 * common + 0.6 * hashNormal(seed_ + 22, u, v);
     const double focal_baseline = sensor_.focal_ir * std::abs(sensor_.baseline);
     if (sensor_.disparity_step <= 0 || focal_baseline <= 0)
@@ -231,6 +265,9 @@ private:
   const Layer& layer_;
   const Lens& lens_;
   std::uint64_t seed_;
+  cv::Mat1f inverse_;   ///< of the depth [1/m], 0 for nothing
+  double nearest_ = 0;  ///< inverse depth that nothing in the picture exceeds [1/m]
+  cv::Mat1f grain_;     ///< what neighbours share of the noise
 };
 
 } // namespace
