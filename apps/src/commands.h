@@ -22,6 +22,10 @@ Action addBatchCommand(CLI::App& program);
 /** \brief Only where the simulator is built (HOIST_BUILD_SIMULATION). */
 Action addSimulateCommand(CLI::App& program);
 
+Action addEvaluateCommand(CLI::App& program);
+
+Action addCocoCommand(CLI::App& program);
+
 /** \brief The hidden command that `hoist batch` starts its workers with. */
 Action addBatchWorkerCommand(CLI::App& program);
 

@@ -86,7 +86,9 @@ main(int argc, char** argv)
 #ifdef HOIST_WITH_SIMULATION
                                               hoist::addSimulateCommand(program),
 #endif
-                                              hoist::addBatchWorkerCommand(program)};
+                                              hoist::addBatchWorkerCommand(program),
+                                              hoist::addEvaluateCommand(program),
+                                              hoist::addCocoCommand(program)};
   try {
     const std::string unknown = unknownWord(program, argc, argv);
     if (!unknown.empty())

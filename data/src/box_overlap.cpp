@@ -35,7 +35,7 @@ facesOf(const OrientedBox& box, const Eigen::Vector3d& origin)
   Faces faces;
   for (int a = 0; a < 3; ++a)
     for (int side = 0; side < 2; ++side) {
-      Face& face = faces[static_cast<std::size_t>(2 * a + side)];
+      Face& face = faces[2 * a + side];
       face.normal = (side == 0 ? 1.0 : -1.0) * box.axes.col(a);
       const int b = (a + 1) % 3, c = (a + 2) % 3;
       const Eigen::Vector3d middle =
