@@ -24,7 +24,7 @@ void
 save(const std::string& folder, const std::string& name, const cv::Mat3b& picture)
 {
   std::vector<uchar> bytes;
-  cv::imencode(".png", picture, bytes);
+  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
   writeFileAtomically(std::filesystem::path(folder) / name,
                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
