@@ -14,9 +14,9 @@ hoist_packages=(
   cmake g++ ninja-build pkg-config
   libpcl-dev libopencv-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev libsqlite3-dev
-  libembree-dev libassimp-dev sweethome3d-furniture
+  libembree-dev libassimp-dev zlib1g-dev sweethome3d-furniture
 )
-hoist_test_packages=(libgtest-dev python3)
+hoist_test_packages=(libgtest-dev python3 python3-numpy)
 
 # fail MESSAGE...: the reason, then the end.
 fail() {
