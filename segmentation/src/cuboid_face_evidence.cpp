@@ -1,4 +1,5 @@
 #include "cuboid_view.h"
+#include "planar_faces_moments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,55 @@ nearerBeside(const float* row, int u, int width)
     ++right;
   return std::max(left >= first ? row[left] : 0.0f, right <= last ? row[right] : 0.0f);
 }
+
+// Where a row of the image sees the box: its visible planes lie before its hidden ones
+// and before the camera, all of them linear in the pixel.
+class Silhouette {
+public:
+  explicit Silhouette(const CuboidView& view) : left_(view.left), right_(view.right)
+  {
+    for (int i = 0; i < view.fronts; ++i) {
+      const PixelPlane& front = view.planes[view.front[i]];
+      add(front);
+      for (int k = 0; k < view.n_hidden; ++k) {
+        const PixelPlane& hidden = view.planes[view.hidden[k]];
+        add({front.a - hidden.a, front.b - hidden.b, front.c - hidden.c});
+      }
+    }
+  }
+
+  cv::Range
+  row(int v) const
+  {
+    double first = left_, last = right_;
+    for (int i = 0; i < n_; ++i) {
+      const double value = half_planes_[i].b * v + half_planes_[i].c;
+      const double zero = -value * inverse_[i];
+      if (half_planes_[i].a > 0)
+        first = std::max(first, zero);
+      else if (half_planes_[i].a < 0)
+        last = std::min(last, zero);
+      else if (value <= 0)
+        return {0, 0};
+    }
+    if (!(first <= last))
+      return {0, 0};
+    return {static_cast<int>(std::ceil(first)), static_cast<int>(last) + 1};
+  }
+
+private:
+  void
+  add(const PixelPlane& p)
+  {
+    half_planes_[n_] = p;
+    inverse_[n_++] = p.a != 0 ? 1 / p.a : 0;
+  }
+
+  int left_, right_;
+  int n_ = 0;
+  std::array<PixelPlane, 18> half_planes_; // positive inside
+  std::array<double, 18> inverse_{};       // of their a
+};
 
 // Share of the uncovered patches whose mean lies on the face.
 double
@@ -77,26 +127,30 @@ collectFaceEvidence(const CuboidView& view,
   const Eigen::Vector3d cell = h.size().cwiseInverse() * patches;
   // rays in the box's axes change by a constant from pixel to pixel
   const Eigen::Vector3d ray_step = h.axes.row(0).transpose() / view.camera.fx;
+  const InverseDepthNoise sigma(view.sensor);
+  const Silhouette silhouette(view);
   for (int v = view.top; v <= view.bottom; v += stride) {
+    const cv::Range columns = silhouette.row(v);
+    if (columns.empty())
+      continue;
     const float* row = image[v];
     const Eigen::Vector3d ray0 = h.axes.transpose() * view.camera.ray(0, v);
-    for (int u = view.left; u <= view.right; u += stride) {
-      // Inverse depth falls along a ray: the box is entered at the smallest of the
-      // visible planes and left at the largest of the hidden ones.
-      double enter = std::numeric_limits<double>::max();
+    std::array<double, 3> base{}, slope{}; // of the visible planes along the row
+    for (int i = 0; i < view.fronts; ++i) {
+      const PixelPlane& plane = view.planes[view.front[i]];
+      base[i] = plane.b * v + plane.c;
+      slope[i] = plane.a;
+    }
+    const int first = (columns.start - view.left + stride - 1) / stride;
+    for (int u = view.left + first * stride; u < columns.end; u += stride) {
+      // inverse depth falls along a ray: the box is entered at the smallest
+      double enter = slope[0] * u + base[0];
       int k = 0;
-      for (int i = 0; i < view.fronts; ++i) {
-        const double w = view.planes[view.front[i]].at(u, v);
-        if (w < enter) {
-          enter = w;
-          k = i;
-        }
+      for (int i = 1; i < view.fronts; ++i) {
+        const double w = slope[i] * u + base[i];
+        k = w < enter ? i : k;
+        enter = std::min(enter, w);
       }
-      bool inside = enter > 0;
-      for (int i = 0; i < view.n_hidden && inside; ++i)
-        inside = view.planes[view.hidden[i]].at(u, v) < enter;
-      if (!inside)
-        continue;
       const double z = 1 / enter;
       const int f = view.front[k];
       const int axis = f / 2, p = (axis + 1) % 3, q = (axis + 2) % 3;
@@ -108,7 +162,7 @@ collectFaceEvidence(const CuboidView& view,
       Patch& patch = grids[k][index(p) * patches + index(q)];
       FaceEvidence& e = evidence.faces[f];
       const float w = row[u];
-      const double noise = view.sensor.sigmaZ(z) * enter * enter;
+      const double noise = sigma(enter);
       constexpr double gate = 3.5;
       const double gate_square = gate * gate * (noise * noise + lateral_square[k]);
       if (!(w > 0)) {

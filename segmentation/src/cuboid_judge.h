@@ -38,6 +38,8 @@ public:
 
 private:
   void verify(CuboidCandidate& candidate, int max_samples) const;
+  double reach(const CuboidHypothesis& hypothesis, double steps) const;
+  void glance(CuboidCandidate& candidate) const;
   bool refine(CuboidCandidate& candidate) const;
   void judgeClosely(CuboidCandidate& candidate) const;
 

@@ -1,4 +1,4 @@
-#include <hoist/segmentation/cuboid_refinement.h>
+#include "refinement_outline.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -17,24 +17,7 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 // Neighbouring measurements share their errors: so many of them count as one.
 constexpr double face_correlation = 50;
 constexpr double border_correlation = 6;
-constexpr double lateral_noise = 0.8; // of an outline element [px]
 constexpr int max_face_pixels = 700;
-
-struct FacePixel {
-  Eigen::Vector3d point; // [m]
-  int face;              // of the box
-  double sigma;          // along the normal [m]
-};
-
-struct OutlinePoint {
-  Eigen::Vector3d point;           // [m]
-  int end;                         // of the box, lower 0, upper 0, lower 1, ...
-  double sigma;                    // along the end's axis [m]
-  double start_sigma;              // the same while the ends are still rough [m]
-  int face;                        // of the box, whose outline it belongs to
-  Eigen::Vector2d inside, outside; // the pixels on both sides of it [px]
-  bool on_plane;                   // moved onto the plane that carries the box
-};
 
 // Tukey's biweight of a residual in units of sigma, zero beyond c.
 double
@@ -44,6 +27,51 @@ weight(double r, double c)
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
+// A point on a face or at an end of the box.
+struct Measurement {
+  Eigen::Vector3d point; // from the origin of the turns [m]
+  double inverse;        // 1 / sigma along the normal [1/m]
+  double start_inverse;  // the same while the ends are still rough
+};
+
+// Measurements, those of one face or end of the box after the other.
+class Measurements {
+public:
+  void
+  add(int f, const Measurement& m)
+  {
+    unsorted_.push_back({f, m});
+    ++first_[f + 1];
+  }
+
+  void
+  sort()
+  {
+    for (int f = 0; f < 6; ++f)
+      first_[f + 1] += first_[f];
+    std::array<int, 7> next = first_;
+    sorted_.resize(unsorted_.size());
+    for (const auto& [f, m] : unsorted_)
+      sorted_[next[f]++] = m;
+  }
+
+  const Measurement*
+  begin(int f) const
+  {
+    return sorted_.data() + first_[f];
+  }
+  const Measurement*
+  end(int f) const
+  {
+    return sorted_.data() + first_[f + 1];
+  }
+
+private:
+  std::array<int, 7> first_{};
+  std::vector<std::pair<int, Measurement>> unsorted_;
+  std::vector<Measurement> sorted_;
+};
+
 // Weighted sums over the residuals a . x - end of one box face, from which its share of
 // the normal equations follows: cheaper than nine by nine products for each pixel.
 struct Sums {
@@ -52,28 +80,31 @@ struct Sums {
   Eigen::Vector3d xr = Eigen::Vector3d::Zero();
   double one = 0, r = 0;
 
-  // n: how many measurements it counts for; cut: where the robust weight ends
+  // count: how many measurements each stands for; cut: where the robust weight ends
   void
-  add(const Eigen::Vector3d& a,
+  add(const Measurement* first,
+      const Measurement* last,
+      const Eigen::Vector3d& a,
       double end,
-      const Eigen::Vector3d& point,
-      double sigma,
-      double n,
+      bool rough,
+      double count,
       double cut)
   {
-    const double residual = a.dot(point) - end;
-    const double inverse = 1 / sigma;
-    const double w = weight(residual * inverse, cut) * n * inverse * inverse;
-    if (w == 0)
-      return;
-    const Eigen::Vector3d wx = w * point;
-    for (int j = 0; j < 3; ++j)
-      for (int i = j; i < 3; ++i)
-        xx(i, j) += wx[i] * point[j];
-    x += wx;
-    xr += wx * residual;
-    one += w;
-    r += w * residual;
+    Sums sum = *this; // in registers
+    for (const Measurement* m = first; m != last; ++m) {
+      const double residual = a.dot(m->point) - end;
+      const double inverse = rough ? m->start_inverse : m->inverse;
+      const double w = weight(residual * inverse, cut) * count * inverse * inverse;
+      const Eigen::Vector3d wx = w * m->point;
+      for (int j = 0; j < 3; ++j)
+        for (int i = j; i < 3; ++i)
+          sum.xx(i, j) += wx[i] * m->point[j];
+      sum.x += wx;
+      sum.xr += wx * residual;
+      sum.one += w;
+      sum.r += w * residual;
+    }
+    *this = sum;
   }
 
   // d(a . x) for a turn omega is omega . (a x x); for the end it is -1.
@@ -114,50 +145,6 @@ faceOf(const CuboidHypothesis& h,
   return best;
 }
 
-// Where the pixels of an outline do not contradict each other, the end lies between the
-// last one on the face and the first one beyond it: finer than a pixel on a slanted
-// edge. Any end in between gives the same pixels, so the middle is taken.
-void
-settleBetweenPixels(const std::vector<OutlinePoint>& outline,
-                    const Intrinsics& camera,
-                    double pixel,
-                    CuboidHypothesis& h)
-{
-  struct Interval {
-    double last = -std::numeric_limits<double>::infinity();
-    double first = std::numeric_limits<double>::infinity();
-    int points = 0;
-    bool planes = false; // better known than by pixels
-  };
-  std::array<Interval, 6> intervals;
-  for (const OutlinePoint& p : outline) {
-    Interval& in = intervals[p.end];
-    in.planes |= p.on_plane;
-    const int axis = p.end / 2, across = 3 - p.face / 2 - axis;
-    const auto lift = [&](const Eigen::Vector2d& q) -> Eigen::Vector3d {
-      const Eigen::Vector3d ray = h.axes.transpose() * camera.ray(q.x(), q.y());
-      return ray * (h.end(p.face) / ray[p.face / 2]);
-    };
-    const double side = CuboidHypothesis::side(p.end);
-    in.last = std::max(in.last, side * lift(p.inside)[axis]);
-    const Eigen::Vector3d beyond = lift(p.outside);
-    // near the corner it may lie beyond another end as well, and says nothing then
-    const double margin = 1.5 * pixel;
-    if (beyond[across] < h.lower[across] + margin ||
-        beyond[across] > h.upper[across] - margin)
-      continue;
-    in.first = std::min(in.first, side * beyond[axis]);
-    ++in.points;
-  }
-  for (int g = 0; g < 6; ++g) {
-    const Interval& in = intervals[g];
-    constexpr int min_points = 6;
-    const double side = CuboidHypothesis::side(g);
-    if (!in.planes && in.points >= min_points && in.last < in.first)
-      h.end(g) = side * (in.last + in.first) / 2;
-  }
-}
-
 } // namespace
 
 bool
@@ -178,7 +165,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
   const double noise = sensor.sigmaZ(z);
 
   // Face pixels: an even subset of the support. Which labels lie on which box face?
-  std::vector<FacePixel> pixels;
+  Measurements pixels;
+  int n_pixels = 0;
   std::vector<std::array<int, 7>> votes; // label, then count per face
   const std::size_t every =
       std::max<std::size_t>(1, evidence.support.size() / max_face_pixels);
@@ -193,7 +181,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
       continue;
     const double cosine = std::abs(h.axes.col(f / 2).dot(ray));
     const double sigma = sensor.sigmaZ(p.z()) * std::max(cosine, 0.1);
-    pixels.push_back({p, f, sigma});
+    pixels.add(f, {p - origin, 1 / sigma, 1 / sigma});
+    ++n_pixels;
     const int label = labels(v, u);
     if (label == 0)
       continue;
@@ -203,75 +192,27 @@ refineCuboid(CuboidHypothesis& hypothesis,
       it = votes.insert(votes.end(), {label, 0, 0, 0, 0, 0, 0});
     ++(*it)[1 + f];
   }
-  if (pixels.size() < 12)
+  constexpr int min_pixels = 12;
+  if (n_pixels < min_pixels)
     return false;
+  pixels.sort();
 
   // Outline elements of those labels, each with the end it lies at.
-  std::vector<OutlinePoint> outline;
+  std::vector<detail::OutlinePoint> outline;
   for (const auto& vote : votes) {
     const int f = static_cast<int>(std::max_element(vote.begin() + 1, vote.end()) -
                                    vote.begin()) -
                   1;
     if (vote[1 + f] < 5)
       continue;
-    const int label = vote[0] - 1;
-    std::array<double, 3> step{}; // what a pixel is worth along each axis [m]
-    for (int i = 0; i < 3; ++i)
-      step[i] = footprint(faces[label], h.axes.col(i), camera);
-    for (int i = borders.first[label]; i < borders.first[label + 1]; ++i) {
-      const BorderElement& e = borders.elements[i];
-      if (e.kind == BorderKind::occluded || e.kind == BorderKind::cut)
-        continue;
-      const Eigen::Vector3d local = h.axes.transpose() * e.point.cast<double>();
-      const Eigen::Vector3d outward = e.outward.cast<double>();
-      int end = -1;
-      double nearest = 1; // in units of the reach
-      for (int g = 0; g < 6; ++g) {
-        // ends at visible faces are where two planes meet: the pixels know them better
-        if (g / 2 == f / 2 || evidence.visible[g])
-          continue;
-        const double reach = 1.5 * step[g / 2] + 0.5 * noise;
-        const double d = std::abs(local[g / 2] - h.end(g)) / reach;
-        if (d < nearest && h.outward(g).dot(outward) >= 0.3) {
-          nearest = d;
-          end = g;
-        }
-      }
-      if (end < 0)
-        continue;
-      const double lateral = lateral_noise * step[end / 2];
-      // which way the pixel's side looks
-      const Eigen::Vector2d pixel = e.pixel.cast<double>();
-      const Eigen::Vector2d ahead =
-          camera.project(e.point.cast<double>() + 1e-3 * z * outward) - pixel;
-      const Eigen::Vector2d half = pixel.x() != std::floor(pixel.x())
-                                       ? Eigen::Vector2d(ahead.x() > 0 ? 0.5 : -0.5, 0)
-                                       : Eigen::Vector2d(0, ahead.y() > 0 ? 0.5 : -0.5);
-      OutlinePoint point{e.point.cast<double>(),
-                         end,
-                         lateral,
-                         lateral,
-                         f,
-                         pixel - half,
-                         pixel + half,
-                         false};
-      // Where the box stands on something, the two planes say better than the pixels
-      // where the face ends.
-      const Eigen::Vector3d axis = h.outward(end);
-      if (e.kind == BorderKind::crease && e.neighbour >= 0 &&
-          faces[e.neighbour].normal.dot(axis) < -0.96) {
-        const PlanarFace& support = faces[e.neighbour];
-        const double t = -(support.normal.dot(point.point) + support.offset) /
-                         support.normal.dot(axis);
-        if (std::abs(t) < 2 * step[end / 2] + noise) {
-          point.point += t * axis;
-          point.sigma = 0.5 * noise;
-          point.on_plane = true;
-        }
-      }
-      outline.push_back(point);
-    }
+    detail::addOutline(
+        h, evidence, vote[0] - 1, f, faces, borders, camera, noise, outline);
   }
+
+  Measurements outlines;
+  for (const detail::OutlinePoint& p : outline)
+    outlines.add(p.end, {p.point - origin, 1 / p.sigma, 1 / p.start_sigma});
+  outlines.sort();
 
   // Parameters: turn about the origin, then the six ends measured from the origin.
   Vector9 ends = Vector9::Zero();
@@ -290,22 +231,27 @@ refineCuboid(CuboidHypothesis& hypothesis,
     Vector9 gradient = Vector9::Zero();
     for (Sums& sum : sums)
       sum = Sums();
-    for (const FacePixel& p : pixels)
-      sums[p.face].add(axes.col(p.face / 2),
-                       ends[3 + p.face],
-                       p.point - origin,
-                       p.sigma,
-                       share / face_correlation,
-                       4.7);
-    for (const OutlinePoint& p : outline)
-      sums[p.end].add(axes.col(p.end / 2),
-                      ends[3 + p.end],
-                      p.point - origin,
-                      iteration < rough_iterations ? p.start_sigma : p.sigma,
-                      1 / border_correlation,
-                      3.0);
-    for (int f = 0; f < 6; ++f)
-      sums[f].addTo(normal, gradient, axes.col(f / 2), f);
+    const bool rough = iteration < rough_iterations;
+    for (int f = 0; f < 6; ++f) {
+      const Eigen::Vector3d axis = axes.col(f / 2);
+      const double end = ends[3 + f];
+      constexpr double face_cut = 4.7, outline_cut = 3.0; // [sigma]
+      sums[f].add(pixels.begin(f),
+                  pixels.end(f),
+                  axis,
+                  end,
+                  rough,
+                  share / face_correlation,
+                  face_cut);
+      sums[f].add(outlines.begin(f),
+                  outlines.end(f),
+                  axis,
+                  end,
+                  rough,
+                  1 / border_correlation,
+                  outline_cut);
+      sums[f].addTo(normal, gradient, axis, f);
+    }
     // what nothing measures stays where the hypothesis put it
     for (int f = 0; f < 6; ++f) {
       // an end on a support is as good as the support's plane; a seen one is where its
@@ -330,7 +276,8 @@ refineCuboid(CuboidHypothesis& hypothesis,
       axes =
           Eigen::AngleAxisd(angle, delta.head<3>() / angle).toRotationMatrix() * axes;
     ends.tail<6>() += delta.tail<6>();
-    if (iteration >= rough_iterations && delta.norm() < 1e-6)
+    constexpr double small = 1e-6; // [rad], [m]
+    if (iteration >= rough_iterations && delta.norm() < small)
       break;
   }
   // clean up rounding
@@ -341,7 +288,7 @@ refineCuboid(CuboidHypothesis& hypothesis,
   h.axes = axes;
   for (int f = 0; f < 6; ++f)
     h.end(f) = ends[3 + f] + axes.col(f / 2).dot(origin);
-  settleBetweenPixels(outline, camera, pixel, h);
+  detail::settleBetweenPixels(outline, camera, pixel, h);
   if ((h.size().array() <= 0).any() ||
       (h.center() - origin).norm() > 0.5 * h.size().norm())
     return false;

@@ -8,15 +8,6 @@
 namespace hoist {
 namespace {
 
-// The product of the shares says which of two boxes is better explained; a logistic
-// turns it into the chance of being right.
-double
-calibrated(double product)
-{
-  constexpr double middle = 0.78, width = 0.04;
-  return 1 / (1 + std::exp((middle - product) / width));
-}
-
 double
 trust(EndSource end)
 {
@@ -34,6 +25,15 @@ trust(EndSource end)
   return 0.6;
 }
 
+// The product of the shares says which of two boxes is better explained; a logistic
+// turns it into the chance of being right.
+double
+calibrated(double product)
+{
+  constexpr double middle = 0.78, width = 0.04;
+  return 1 / (1 + std::exp((middle - product) / width));
+}
+
 // A face seen at a grazing angle is a strip of few pixels, and the error of the pose
 // alone hides or shows it: the share of its width that a pixel or two cannot change.
 double
@@ -47,6 +47,21 @@ certainty(const FaceEvidence& e, int stride, double longest_side)
 }
 
 } // namespace
+
+double
+trust(const CuboidHypothesis& hypothesis)
+{
+  double all = 1;
+  for (const EndSource end : hypothesis.ends)
+    all *= trust(end);
+  return all;
+}
+
+double
+highestScore(double trust)
+{
+  return calibrated(trust);
+}
 
 void
 verifyCuboid(const CuboidHypothesis& h,
@@ -104,9 +119,7 @@ verifyCuboid(const CuboidHypothesis& h,
   evidence.flat = flat / area;
   evidence.outline = good / (good + bad);
   double product = std::pow(evidence.flat, 3) * evidence.outline * (1 - excess);
-  evidence.trust = 1;
-  for (const EndSource end : h.ends)
-    evidence.trust *= trust(end);
+  evidence.trust = trust(h);
   product *= evidence.trust;
   if (observed < 2)
     product *= 0.5; // one face: the third dimension is a guess

@@ -27,16 +27,30 @@ struct FullMode::Workspace {
   // Of the candidates for which wanted is true, the best first.
   template <typename Wanted>
   std::vector<CuboidVerdict>
-  verdicts(const Wanted& wanted) const
+  verdicts(const FrameImages& images, const Wanted& wanted) const
   {
     std::vector<CuboidVerdict> all;
-    for (const CuboidCandidate& c : candidates)
-      if (wanted(c))
-        all.push_back({detail::toCuboid(c),
-                       c.rejected ? c.rejected : "",
-                       c.evidence.flat,
-                       c.evidence.outline,
-                       c.evidence.trust});
+    for (CuboidCandidate c : candidates) {
+      if (!wanted(c))
+        continue;
+      if (c.evidence.stride == 0) {
+        constexpr int samples = 600;
+        verifyCuboid(c.hypothesis,
+                     images.inverse_depth,
+                     images.bgr,
+                     labels,
+                     faces,
+                     camera,
+                     sensor,
+                     samples,
+                     c.evidence);
+      }
+      all.push_back({detail::toCuboid(c),
+                     c.rejected ? c.rejected : "",
+                     c.evidence.flat,
+                     c.evidence.outline,
+                     c.evidence.trust});
+    }
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
       return a.rank() > b.rank();
     });
@@ -75,21 +89,22 @@ FullMode::segment(const FrameImages& images,
   detail::CuboidJudge judge(images, w.labels, w.faces, w.borders, w.sensor, parameters);
   judge.judge(w.candidates);
   selectCuboids(w.candidates, w.chosen);
+  for (const int i : w.chosen)
+    judge.judgeFully(w.candidates[i]);
+  std::stable_sort(w.chosen.begin(), w.chosen.end(), [&](int a, int b) {
+    return w.candidates[a].evidence.score > w.candidates[b].evidence.score;
+  });
+  const auto most = static_cast<std::size_t>(std::max(0, parameters.max_cuboids));
   for (const int i : w.chosen) {
     CuboidCandidate& c = w.candidates[i];
-    judge.judgeFully(c);
+    if (!c.rejected && most > 0 && cuboids.size() == most)
+      c.rejected = "more than the maximum number";
     if (!c.rejected)
       cuboids.push_back(detail::toCuboid(c));
   }
   for (const CuboidCandidate& c : w.candidates)
     if (c.rejected)
       diagnostics.rejected.add(c.rejected);
-  std::stable_sort(cuboids.begin(),
-                   cuboids.end(),
-                   [](const Cuboid& a, const Cuboid& b) { return a.score > b.score; });
-  const auto most = static_cast<std::size_t>(std::max(0, parameters.max_cuboids));
-  if (most > 0 && cuboids.size() > most)
-    cuboids.resize(most);
   diagnostics.counts.add("cuboids", cuboids.size());
   return true;
 }
@@ -131,16 +146,16 @@ FullMode::makeHypotheses(const FrameImages& images,
 }
 
 std::vector<CuboidVerdict>
-FullMode::verdicts() const
+FullMode::verdicts(const FrameImages& images) const
 {
-  return workspace_->verdicts([](const CuboidCandidate&) { return true; });
+  return workspace_->verdicts(images, [](const CuboidCandidate&) { return true; });
 }
 
 std::vector<CuboidVerdict>
-FullMode::verdictsAt(int u, int v) const
+FullMode::verdictsAt(const FrameImages& images, int u, int v) const
 {
   const Workspace& w = *workspace_;
-  return w.verdicts([&](const CuboidCandidate& c) {
+  return w.verdicts(images, [&](const CuboidCandidate& c) {
     const detail::CuboidView view(c.hypothesis, w.camera, w.sensor, w.labels.size());
     return view.valid() && view.covers(u, v);
   });

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstring>
+#include <map>
+#include <string>
 
 namespace hoist {
 namespace {
@@ -227,6 +229,47 @@ TEST(FullModeLaws, ReportedCuboidsKeepTheirContract)
           EXPECT_TRUE(std::isnan(c.size_sigma[i]));
         }
     }
+  }
+}
+
+TEST(FullModeLaws, EveryHypothesisHasAVerdict)
+{
+  samples::RandomTableOptions options;
+  options.cylinders = 1;
+  for (std::uint64_t seed = 31; seed <= 33; ++seed) {
+    FrameImages images;
+    test::renderedFrame(samples::randomTableScene(seed, 6, options), images);
+    FullMode mode;
+    FullModeParameters parameters;
+    parameters.max_cuboids = 2;
+    std::vector<Cuboid> cuboids;
+    Diagnostics diagnostics;
+    ASSERT_TRUE(mode.segment(images, {}, parameters, cuboids, diagnostics));
+    ASSERT_EQ(cuboids.size(), 2U);
+    const std::vector<CuboidVerdict> verdicts = mode.verdicts(images);
+    EXPECT_EQ(verdicts.size(), diagnostics.counts["hypotheses"]);
+    std::map<std::string, std::size_t> reasons;
+    for (const CuboidVerdict& verdict : verdicts) {
+      ++reasons[verdict.rejected];
+      EXPECT_GT(verdict.cuboid.size.minCoeff(), 0);
+    }
+    EXPECT_EQ(reasons[""], cuboids.size());
+    EXPECT_EQ(reasons["more than the maximum number"],
+              diagnostics.rejected["more than the maximum number"]);
+    for (const auto& [name, count] : diagnostics.rejected.entries())
+      if (std::string(name) != "faces do not meet") { // no hypothesis came of those
+        EXPECT_EQ(reasons[name], count) << name;
+      }
+    // the reported ones come first, also where their middle is seen
+    for (std::size_t i = 0; i < cuboids.size(); ++i)
+      EXPECT_EQ(verdicts[i].rejected, "");
+    const Eigen::Vector2d p = images.intrinsics.project(cuboids[0].center);
+    const auto there = mode.verdictsAt(
+        images, static_cast<int>(p.x() + 0.5), static_cast<int>(p.y() + 0.5));
+    ASSERT_FALSE(there.empty());
+    EXPECT_EQ(there[0].rejected, "");
+    EXPECT_EQ(there[0].cuboid.center, cuboids[0].center);
+    EXPECT_EQ(mode.faceAt(-5, 3), nullptr);
   }
 }
 

@@ -173,20 +173,19 @@ public:
   }
 
   /** \brief Full mode: every box that the last call thought of, with the reason why it
-   *  is not reported; empty in paper mode. */
+   *  is not reported; empty in paper mode. Ask before the frame's images change. */
   std::vector<CuboidVerdict>
   getVerdicts() const
   {
-    return mode_ == SegmentationMode::full ? full_.verdicts()
-                                           : std::vector<CuboidVerdict>();
+    return explained_ ? full_.verdicts(*explained_) : std::vector<CuboidVerdict>();
   }
 
   /** \brief Those of them that cover pixel (u, v). */
   std::vector<CuboidVerdict>
   getVerdictsAt(int u, int v) const
   {
-    return mode_ == SegmentationMode::full ? full_.verdictsAt(u, v)
-                                           : std::vector<CuboidVerdict>();
+    return explained_ ? full_.verdictsAt(*explained_, u, v)
+                      : std::vector<CuboidVerdict>();
   }
 
   /** \brief Full mode: the flat face at pixel (u, v), nullptr where there is none;
@@ -194,7 +193,7 @@ public:
   const PlanarFace*
   getFaceAt(int u, int v) const
   {
-    return mode_ == SegmentationMode::full ? full_.faceAt(u, v) : nullptr;
+    return explained_ ? full_.faceAt(u, v) : nullptr;
   }
 
 private:
@@ -203,6 +202,7 @@ private:
 
   FrameImages::ConstPtr images_;
   FrameImages::Ptr own_images_;
+  FrameImages::ConstPtr explained_; // what the full mode saw last
   cv::Mat1b mask_;
   SegmentationMode mode_ = SegmentationMode::full;
   PaperModeParameters paper_parameters_;

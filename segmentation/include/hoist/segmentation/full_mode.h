@@ -64,11 +64,13 @@ public:
                std::vector<Cuboid>& cuboids,
                Diagnostics& diagnostics);
 
-  /** \brief All boxes that the last call thought of, rank() descending. */
-  std::vector<CuboidVerdict> verdicts() const;
+  /** \brief All boxes that the last call thought of, rank() descending.
+   *  \param images the frame of that call; those that could come to nothing were not
+   *         looked at then, and are now */
+  std::vector<CuboidVerdict> verdicts(const FrameImages& images) const;
 
   /** \brief Those of them that cover a pixel, whatever may stand in front. */
-  std::vector<CuboidVerdict> verdictsAt(int u, int v) const;
+  std::vector<CuboidVerdict> verdictsAt(const FrameImages& images, int u, int v) const;
 
   /** \brief The flat face at a pixel in the last call, nullptr where there is none;
    * valid until the next. */

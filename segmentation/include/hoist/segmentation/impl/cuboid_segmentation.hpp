@@ -41,6 +41,7 @@ CuboidSegmentation<PointT>::segment(std::vector<Cuboid>& cuboids)
   result_.clear();
   edge_pixels_.clear();
   diagnostics_.clear();
+  explained_.reset();
   if (!input_) {
     PCL_ERROR("[hoist::%s::segment] No input cloud.\n", name);
     return false;
@@ -57,6 +58,8 @@ CuboidSegmentation<PointT>::segment(std::vector<Cuboid>& cuboids)
   else
     mask_.release();
   const bool done = segmentImages(*images, mask_);
+  if (done && mode_ == SegmentationMode::full)
+    explained_ = images;
   cuboids = result_.cuboids;
   return done;
 }
