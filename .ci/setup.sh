@@ -14,9 +14,10 @@ hoist_packages=(
   cmake g++ ninja-build pkg-config
   libpcl-dev libopencv-dev libeigen3-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev libsqlite3-dev
+  libegl-dev libx11-dev libgl1-mesa-dri
   libembree-dev libassimp-dev zlib1g-dev sweethome3d-furniture
 )
-hoist_test_packages=(libgtest-dev python3 python3-numpy)
+hoist_test_packages=(libgtest-dev python3 python3-numpy xvfb xdotool)
 
 # fail MESSAGE...: the reason, then the end.
 fail() {

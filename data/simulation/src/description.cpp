@@ -30,6 +30,7 @@ public:
     }
     if (!root.IsMap())
       read_.fail(root, "not a scene: expected a map of settings");
+    d_.sensor = Sensor::ideal();
     read_.readMap(root,
                   "a scene",
                   {{"name", [&](const Node& n) { d_.name = fileName(n); }},
@@ -305,6 +306,7 @@ private:
          {"timbers", to(g.timbers, 0, 1)},
          {"tipped", to(g.tipped, 0, 1)},
          {"mesh", [&](const Node& n) { g.mesh = beside(read_.word(n)); }},
+         {"library", to(g.library, 0, 1)},
          {"split", [&](const Node& n) { g.split = splitOf(n); }}});
     if (g.kinds.empty())
       read_.fail(node, "a thing needs a kind");

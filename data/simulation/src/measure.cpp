@@ -265,9 +265,9 @@ private:
   const Layer& layer_;
   const Lens& lens_;
   std::uint64_t seed_;
-  cv::Mat1f inverse_;   ///< of the depth [1/m], 0 for nothing
-  double nearest_ = 0;  ///< inverse depth that nothing in the picture exceeds [1/m]
-  cv::Mat1f grain_;     ///< what neighbours share of the noise
+  cv::Mat1f inverse_;  ///< of the depth [1/m], 0 for nothing
+  double nearest_ = 0; ///< inverse depth that nothing in the picture exceeds [1/m]
+  cv::Mat1f grain_;    ///< what neighbours share of the noise
 };
 
 } // namespace

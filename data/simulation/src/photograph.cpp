@@ -49,17 +49,18 @@ public:
     castSky();
     cv::Mat3f picture(size_);
     for (int v = 0; v < size_.height; ++v)
-      for (int u = 0; u < size_.width; ++u) {
-        Vector3f light = lightAt(u, v, seen_(u, v), u, v);
-        if (onSilhouette(u, v)) { // four more, so that silhouettes are no stairs
-          for (const auto& offset : offsets) {
-            const double x = u + offset[0], y = v + offset[1];
-            const Hit hit = caster_.cast(pose_.translation(), direction(x, y));
-            light += lightAt(x, y, hit, u, v);
-          }
-          light /= 5;
+      for (int u = 0; u < size_.width; u += 4) {
+        const int count = std::min(4, size_.width - u);
+        Sample samples[4];
+        for (int i = 0; i < count; ++i)
+          samples[i] = {double(u + i), double(v), &seen_(u + i, v), u + i, v};
+        Vector3f lights[4];
+        lightsAt(samples, count, lights);
+        for (int i = 0; i < count; ++i) {
+          if (onSilhouette(u + i, v))
+            lights[i] = smoothed(u + i, v, lights[i]);
+          picture(v, u + i) = {lights[i].z(), lights[i].y(), lights[i].x()};
         }
-        picture(v, u) = {light.z(), light.y(), light.x()};
       }
     return picture;
   }
@@ -74,6 +75,30 @@ private:
   direction(double u, double v) const
   {
     return pose_.linear() * lens_.ray(u, v);
+  }
+
+  // A place in the picture, what a ray through it met, and the pixel it belongs to.
+  struct Sample {
+    double x, y;
+    const Hit* hit;
+    int u, v;
+  };
+
+  // Four rays more, so that silhouettes are no stairs.
+  Vector3f
+  smoothed(int u, int v, const Vector3f& middle)
+  {
+    Vector3d directions[4];
+    for (int i = 0; i < 4; ++i)
+      directions[i] = direction(u + offsets[i][0], v + offsets[i][1]);
+    Hit hits[4];
+    caster_.cast4(pose_.translation(), directions, hits);
+    Sample samples[4];
+    for (int i = 0; i < 4; ++i)
+      samples[i] = {u + offsets[i][0], v + offsets[i][1], &hits[i], u, v};
+    Vector3f lights[4];
+    lightsAt(samples, 4, lights);
+    return (middle + lights[0] + lights[1] + lights[2] + lights[3]) / 5;
   }
 
   void
@@ -94,23 +119,73 @@ private:
       }
   }
 
+  // What is known of the sky at one pixel of many.
+  struct Cell {
+    Vector3f normal = Vector3f::Zero();
+    float distance = -1; ///< -1 where nothing is seen
+    float open = 1;
+  };
+
+  // 1 for the same surface, next to nothing for another.
+  static float
+  alike(const Cell& cell, const Vector3f& normal, float distance)
+  {
+    const float apart = (cell.distance - distance) / distance;
+    const float turn = 1 - cell.normal.dot(normal);
+    return 1 / (1 + 400 * apart * apart + 20 * turn);
+  }
+
   void
   castSky()
   {
     sky_size_ = cv::Size(size_.width / sky_step + 2, size_.height / sky_step + 2);
-    open_.create(sky_size_);
+    std::vector<Cell> rough(static_cast<std::size_t>(sky_size_.area()));
     for (int j = 0; j < sky_size_.height; ++j)
       for (int i = 0; i < sky_size_.width; ++i) {
         const int u = skyPixel(i, size_.width), v = skyPixel(j, size_.height);
         const Hit& hit = seen_(u, v);
-        open_(j, i) = 1;
-        if (hit.thing >= 0)
-          open_(j, i) = openSky(
-              caster_,
-              placeOf(caster_, pose_.translation(), direction(u, v), hit, pixel_angle_),
-              2.5,
-              static_cast<std::uint64_t>(j) * 8192 + static_cast<std::uint64_t>(i));
+        Cell& cell = rough[static_cast<std::size_t>(j) * sky_size_.width + i];
+        if (hit.thing < 0)
+          continue;
+        cell.normal = hit.normal.cast<float>();
+        cell.distance = static_cast<float>(hit.distance);
+        cell.open = openSky(
+            caster_,
+            placeOf(caster_, pose_.translation(), direction(u, v), hit, pixel_angle_),
+            2.5,
+            static_cast<std::uint64_t>(j) * 8192 + static_cast<std::uint64_t>(i));
       }
+    // eight rays are few: neighbours on the same surface share theirs
+    cells_ = rough;
+    for (int j = 0; j < sky_size_.height; ++j)
+      for (int i = 0; i < sky_size_.width; ++i) {
+        Cell& cell = cells_[static_cast<std::size_t>(j) * sky_size_.width + i];
+        if (cell.distance > 0)
+          cell.open =
+              meanOpen(rough, i - 1, i + 1, j - 1, j + 1, cell.normal, cell.distance);
+      }
+  }
+
+  float
+  meanOpen(const std::vector<Cell>& cells,
+           int left,
+           int right,
+           int top,
+           int bottom,
+           const Vector3f& normal,
+           float distance) const
+  {
+    float sum = 0, weights = 0;
+    for (int j = std::max(0, top); j <= std::min(bottom, sky_size_.height - 1); ++j)
+      for (int i = std::max(0, left); i <= std::min(right, sky_size_.width - 1); ++i) {
+        const Cell& cell = cells[static_cast<std::size_t>(j) * sky_size_.width + i];
+        if (cell.distance < 0)
+          continue;
+        const float weight = alike(cell, normal, distance);
+        sum += weight * cell.open;
+        weights += weight;
+      }
+    return weights > 0 ? sum / weights : 0.7f;
   }
 
   static int
@@ -119,28 +194,25 @@ private:
     return std::min(cell * sky_step, extent - 1);
   }
 
-  // From the cells around, those on the same surface.
+  // Between the four cells around, those on the same surface.
   float
-  openAt(int u, int v, const Hit& hit, double distance) const
+  openAt(const Sample& sample) const
   {
-    const int i0 = u / sky_step, j0 = v / sky_step;
+    const int i0 = sample.u / sky_step, j0 = sample.v / sky_step;
+    const float x = static_cast<float>(sample.u % sky_step) / sky_step;
+    const float y = static_cast<float>(sample.v % sky_step) / sky_step;
+    const Vector3f normal = sample.hit->normal.cast<float>();
+    const auto distance = static_cast<float>(sample.hit->distance);
     float sum = 0, weights = 0;
-    for (int j = std::max(0, j0 - 1); j <= std::min(j0 + 2, sky_size_.height - 1); ++j)
-      for (int i = std::max(0, i0 - 1); i <= std::min(i0 + 2, sky_size_.width - 1);
-           ++i) {
-        const int x = skyPixel(i, size_.width), y = skyPixel(j, size_.height);
-        const Hit& other = seen_(x, y);
-        if (other.thing < 0)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) {
+        const Cell& cell =
+            cells_[static_cast<std::size_t>(j0 + j) * sky_size_.width + i0 + i];
+        if (cell.distance < 0)
           continue;
-        const double apart = std::abs(other.distance - distance) / distance;
-        const double turn = 1 - other.normal.dot(hit.normal);
-        const double far =
-            ((x - u) * (x - u) + (y - v) * (y - v)) / double(sky_step * sky_step);
-        if (far >= 4)
-          continue;
-        const auto weight = static_cast<float>(
-            (1 - far / 4) / (1 + 400 * apart * apart + 20 * turn) + 1e-6);
-        sum += weight * open_(j, i);
+        const float weight =
+            ((i ? x : 1 - x) * (j ? y : 1 - y) + 1e-3f) * alike(cell, normal, distance);
+        sum += weight * cell.open;
         weights += weight;
       }
     return weights > 0 ? sum / weights : 0.7f;
@@ -165,15 +237,27 @@ private:
            differs(u, v - 1);
   }
 
-  Vector3f
-  lightAt(double x, double y, const Hit& hit, int u, int v)
+  void
+  lightsAt(const Sample* samples, int count, Vector3f* lights)
   {
-    const Vector3d way = direction(x, y);
-    if (hit.thing < 0)
-      return skyColor(scene_.light, way);
-    const Place place = placeOf(caster_, pose_.translation(), way, hit, pixel_angle_);
-    directLight(caster_, scene_.light, place, direct_);
-    return shadeOf(scene_, hit, place, direct_, openAt(u, v, hit, hit.distance));
+    Place places[4];
+    int met[4], hits = 0;
+    for (int i = 0; i < count; ++i) {
+      const Vector3d way = direction(samples[i].x, samples[i].y);
+      if (samples[i].hit->thing < 0) {
+        lights[i] = skyColor(scene_.light, way);
+        continue;
+      }
+      places[hits] =
+          placeOf(caster_, pose_.translation(), way, *samples[i].hit, pixel_angle_);
+      met[hits++] = i;
+    }
+    if (hits == 0)
+      return;
+    directLight(caster_, scene_.light, places, hits, direct_);
+    for (int k = 0; k < hits; ++k)
+      lights[met[k]] = shadeOf(
+          scene_, *samples[met[k]].hit, places[k], direct_[k], openAt(samples[met[k]]));
   }
 
   const RayCaster& caster_;
@@ -184,8 +268,8 @@ private:
   double pixel_angle_ = 0;
   Seen seen_;
   cv::Size sky_size_;
-  cv::Mat1f open_;
-  std::vector<float> direct_;
+  std::vector<Cell> cells_;
+  std::vector<float> direct_[4];
 };
 
 // A Gaussian of three taps. OpenCV's rounds differently from processor to processor.

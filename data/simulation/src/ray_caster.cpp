@@ -237,6 +237,9 @@ struct RayCaster::Impl {
 
 RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>())
 {
+  // Embree may end the program over a ray that is not finite
+  if (!scene.sensor.camera.valid() || !scene.sensor_to_world.matrix().allFinite())
+    throw std::invalid_argument("the camera of '" + scene.name + "' has no numbers");
   // one instruction set and one building thread: the same tree everywhere
   impl_->device = rtcNewDevice("threads=1,set_affinity=0,isa=sse2");
   if (impl_->device == nullptr)

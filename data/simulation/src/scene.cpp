@@ -53,7 +53,7 @@ Sensor::kinect()
   sensor.baseline = 0.075;
   sensor.disparity_step = 0.125;
   sensor.lateral = 0.8;
-  sensor.edge_loss = 0.3;
+  sensor.edge_loss = 0.5;
   sensor.grazing_loss = 0.6;
   return sensor;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hoist {
 namespace simulation {
@@ -47,20 +48,42 @@ placeOf(const RayCaster& caster,
 void
 directLight(const RayCaster& caster,
             const Light& light,
-            const Place& place,
-            std::vector<float>& visible)
+            const Place* places,
+            int count,
+            std::vector<float>* visible)
 {
-  const std::size_t count = 1 + light.lamps.size();
-  visible.assign(count, 0.0f);
-  const Vector3d start =
-      place.position + place.normal * (2e-4 + 2e-5 * place.position.norm());
-  if (light.sun_power.maxCoeff() > 0 && place.normal.dot(light.sun) > 0 &&
-      place.shade.dot(light.sun) > 0)
-    visible[0] = caster.blocked(start, light.sun) ? 0.0f : 1.0f;
-  for (std::size_t i = 0; i < light.lamps.size(); ++i) {
-    const Vector3d way = light.lamps[i].position - start;
-    if (place.normal.dot(way) > 0 && place.shade.dot(way) > 0)
-      visible[i + 1] = caster.blocked(start, way, 0.98) ? 0.0f : 1.0f;
+  Vector3d starts[4], ways[4];
+  double fars[4];
+  for (int i = 0; i < 4; ++i) {
+    const Place& place = places[std::min(i, count - 1)];
+    starts[i] = place.position + place.normal * (2e-4 + 2e-5 * place.position.norm());
+  }
+  // a light behind a surface needs no ray; far = 0 leaves it out
+  const auto cast = [&](std::size_t number) {
+    bool blocked[4];
+    caster.blocked4(starts, ways, fars, blocked);
+    for (int i = 0; i < count; ++i)
+      visible[i][number] = fars[i] > 0 && !blocked[i] ? 1.0f : 0.0f;
+  };
+  const auto faces = [&](int i) {
+    return i < count && places[i].normal.dot(ways[i]) > 0 &&
+           places[i].shade.dot(ways[i]) > 0;
+  };
+  for (int i = 0; i < count; ++i)
+    visible[i].assign(1 + light.lamps.size(), 0.0f);
+  if (light.sun_power.maxCoeff() > 0) {
+    for (int i = 0; i < 4; ++i) {
+      ways[i] = light.sun;
+      fars[i] = faces(i) ? std::numeric_limits<double>::infinity() : 0;
+    }
+    cast(0);
+  }
+  for (std::size_t lamp = 0; lamp < light.lamps.size(); ++lamp) {
+    for (int i = 0; i < 4; ++i) {
+      ways[i] = light.lamps[lamp].position - starts[i];
+      fars[i] = faces(i) ? 0.98 : 0;
+    }
+    cast(lamp + 1);
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace hoist {
 namespace simulation {
 
@@ -24,12 +26,13 @@ Place placeOf(const RayCaster& caster,
               const Hit& hit,
               double pixel_angle);
 
-/** \brief How much of the sun and of every lamp reaches a place: 0 or 1 each, sun
- *  first. */
+/** \brief How much of the sun and of every lamp reaches places: 0 or 1 each, sun first.
+ *  \param count of the places, at most 4 \param visible a list for every place */
 void directLight(const RayCaster& caster,
                  const Light& light,
-                 const Place& place,
-                 std::vector<float>& visible);
+                 const Place* places,
+                 int count,
+                 std::vector<float>* visible);
 
 /** \brief How much of the sky above a place is open, [0, 1], from a few rays of at most
  *  \a reach [m]. \param number of the pixel, which turns the pattern of rays */

@@ -25,14 +25,14 @@ light: {sun: 0.7, sun_elevation: [12, 65], sun_power: [1, 4]}
 
 const char* const worksite_things = R"(
 things:
-  - {kind: safety cone, count: [0, 2], tipped: 0.15, split: SPLIT}
+  - {kind: safety cone, count: [0, 2], tipped: 0.15, library: 0.1, split: SPLIT}
   - {kind: hard hat, count: [0, 2], tipped: 0.3, stacked: 0.4, split: SPLIT}
   - {kind: bucket, count: [0, 2], tipped: 0.1, split: SPLIT}
-  - {kind: recycle bin, count: [0, 2], split: SPLIT}
-  - {kind: safety gloves, count: [0, 2], stacked: 0.4, split: SPLIT}
+  - {kind: recycle bin, count: [0, 2], library: 0.3, split: SPLIT}
+  - {kind: safety gloves, count: [0, 2], stacked: 0.4, library: 0.15, split: SPLIT}
   - {kind: gas container, count: [0, 2], tipped: 0.1, split: SPLIT}
-  - {kind: chair, count: [0, 2], tipped: 0.05, split: SPLIT}
-  - {kind: plant, count: [0, 2], split: SPLIT}
+  - {kind: chair, count: [0, 2], tipped: 0.05, library: 0.6, split: SPLIT}
+  - {kind: plant, count: [0, 2], library: 0.5, split: SPLIT}
   - {kind: [carton, crate, block, bricks], count: [0, 3], stacked: 0.3, size: [[0.25, 0.8], [0.2, 0.6], [0.15, 0.6]]}
   - {kind: [drum, can, pipe, rubble, sawhorse], count: [0, 3]}
   - {kind: [worker, scaffold, post], count: [0, 1]}

@@ -1,6 +1,7 @@
 #include <hoist/simulation/things.h>
 
 #include "thing_builder.h"
+#include <hoist/simulation/mesh_library.h>
 
 #include <algorithm>
 
@@ -38,6 +39,43 @@ const std::vector<KindTraits> kinds = {
     {"post", false, false, false, false, false},
 };
 
+// A thing of the shape that a file has.
+Thing
+fromShape(const ThingRequest& request, const LoadedMesh& shape, Random& random)
+{
+  ThingBuilder builder(request);
+  const double dirt = request.wear.value_or(random.uniform(0, 0.5));
+  const std::uint64_t seed = random.bits();
+  for (Material material : shape.materials) {
+    material.stains = dirt;
+    material.seed = seed;
+    builder.addMaterial(material);
+  }
+  builder.add(shape.mesh);
+  return builder.finish();
+}
+
+// One of the library, if it has the class in that split.
+bool
+fromLibrary(const ThingRequest& request, Random& random, Thing& thing)
+{
+  std::vector<const LibraryMesh*> fitting;
+  for (const LibraryMesh& mesh : meshLibrary())
+    if (mesh.kind == request.kind &&
+        (request.split.empty() || mesh.test == (request.split == "test")))
+      fitting.push_back(&mesh);
+  if (fitting.empty())
+    return false;
+  const LibraryMesh& chosen = *random.pick(fitting);
+  thing = fromShape(request, *libraryShape(chosen), random);
+  thing.substance = chosen.substance;
+  thing.mesh_file = chosen.archive + ":" + chosen.model;
+  thing.density = 60;
+  if (request.kind == "recycle bin")
+    thing.full = false; // as the catalogue has them
+  return true;
+}
+
 constexpr std::size_t first_class = 10, first_clutter = 18;
 
 } // namespace
@@ -60,6 +98,17 @@ Thing
 makeThing(const ThingRequest& request, Random& random)
 {
   const auto found = static_cast<std::size_t>(findKind(request.kind) - kinds.data());
+  Thing thing;
+  if (!request.mesh.empty()) {
+    thing = fromShape(request, loadMesh(request.mesh), random);
+    thing.mesh_file = request.mesh;
+    thing.annotated = kinds[found].annotated;
+    return thing;
+  }
+  if (request.library && fromLibrary(request, random, thing)) {
+    thing.annotated = true;
+    return thing;
+  }
   if (found >= first_clutter)
     return makeClutter(request, random);
   if (found >= first_class)

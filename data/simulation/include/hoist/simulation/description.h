@@ -43,7 +43,8 @@ struct ThingGroup {
   double timbers = 0;                     ///< chance to lie on timbers
   double tipped = 0;                      ///< chance to lie on its side
   std::string mesh;                       ///< file; relative to the description's
-  std::string split;                      ///< of the mesh library: "train", "test", ""
+  double library = 0; ///< chance that the shape is one of the mesh library
+  std::string split;  ///< of the mesh library: "train", "test", ""
 };
 
 /** \brief What a scene is drawn from. Lengths in metres, angles in degrees. */

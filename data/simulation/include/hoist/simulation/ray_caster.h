@@ -31,7 +31,8 @@ struct Hit {
  */
 class RayCaster {
 public:
-  /** \throws std::runtime_error if Embree fails, e.g. for want of memory */
+  /** \throws std::runtime_error if Embree fails, e.g. for want of memory;
+   *  std::invalid_argument if the camera is none or its pose is not finite */
   explicit RayCaster(const Scene& scene);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
