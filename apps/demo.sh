@@ -20,7 +20,7 @@ fi
 install_packages "${hoist_packages[@]}"
 echo "Building hoist in ${hoist_build#"$PWD"/}"
 configure -DHOIST_BUILD_APPS=ON
-build hoist
+build hoist hoist_viewer
 "$hoist_build/apps/hoist" recognize "${inputs[@]}" -o "$output"
 hand_over "$hoist_root/build" "$output"
 echo "The overlays (PNG) and the results (JSON) are in $output"

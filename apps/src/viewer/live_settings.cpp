@@ -175,7 +175,8 @@ LiveSettings::yaml() const
     if (!option->get_configurable() || option->get_lnames().empty() ||
         option->get_lnames().front() == "help")
       continue;
-    const std::string name = option->get_lnames().front(), text = value(name);
+    const std::string& name = option->get_lnames().front();
+    const std::string text = value(name);
     if (!text.empty())
       out << YAML::Key << name << YAML::Value << text;
   }

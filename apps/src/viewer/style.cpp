@@ -9,7 +9,7 @@
 
 namespace hoist {
 
-vtkStandardNewMacro(ViewerStyle);
+vtkStandardNewMacro(ViewerStyle); // NOLINT(readability-identifier-naming): VTK's name
 
 void
 ViewerStyle::setHandlers(KeyHandler keys, ClickHandler clicks)
