@@ -370,7 +370,7 @@ photograph(const RayCaster& caster,
           value += sigma * roughNormal(mix(pixel + static_cast<unsigned>(c)));
         }
         const float encoded = encodeSrgb(shoulder(static_cast<float>(value)));
-        out(v, u)[c] = static_cast<unsigned char>(encoded * 255 + 0.5f);
+        out(v, u)[c] = static_cast<unsigned char>(std::floor(encoded * 255 + 0.5f));
       }
     }
   return out;
