@@ -1,4 +1,6 @@
 # hoist_viewer on a virtual display (Xvfb, xdotool) and without one.
+hoist_add_test(test_viewer_parts SOURCES test_viewer_parts.cpp
+  LIBRARIES hoist_viewer_parts)
 foreach(group Usage Headless Window RealFrames)
   add_test(NAME viewer.${group}
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test_viewer.py ${group})
