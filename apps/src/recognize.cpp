@@ -4,6 +4,7 @@
 #include "recognizer.h"
 #include "settings.h"
 #include "table.h"
+#include "why.h"
 
 #include <hoist/data/atomic_file.h>
 #include <hoist/data/result_io.h>
@@ -93,6 +94,8 @@ private:
       fmt::print(stderr, "hoist: {}: {}\n", file, warning);
     if (settings_.json != "-")
       table_.add(result);
+    for (const cv::Point& pixel : settings_.why)
+      std::cout << whyText(recognizer_, frame, pixel);
   }
 
   void

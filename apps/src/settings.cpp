@@ -45,6 +45,20 @@ addCommon(CLI::App& command, RecognizeSettings& s)
       ->check(CLI::ExistingFile)
       ->configurable(false)
       ->type_name("FILE");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--why",
+          [&s](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+              s.why.push_back(parsePixel(text));
+          },
+          "Say what was thought at this pixel and why it is in no cuboid; full mode; "
+          "may "
+          "be given more than once")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->configurable(false)
+      ->type_name("U,V");
   command.add_flag("-q,--quiet", s.quiet, "No progress")->configurable(false);
 }
 
@@ -301,6 +315,10 @@ completeSettings(CLI::App& command, RecognizeSettings& settings)
   if (!settings.config.empty())
     applyYaml(command, settings.config);
   checkMethod(settings);
+  if (!settings.why.empty() && settings.mode != "full")
+    throw UsageError("--why explains the full mode only");
+  if (!settings.why.empty() && settings.json == "-")
+    throw UsageError("--why writes to the standard output, and so does --json -");
   if (!settings.output.empty())
     checkOutputNames(settings);
 }

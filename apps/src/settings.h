@@ -19,6 +19,7 @@ struct RecognizeSettings {
   std::string config; ///< YAML file; "" for none
   std::string json;   ///< "-" for stdout, a file, or "" for none
   std::vector<std::string> formats = {"json", "png"};
+  std::vector<cv::Point> why; ///< pixels to explain
   bool quiet = false;
 
   std::string mode = "full"; ///< "paper" or "full"

@@ -121,4 +121,18 @@ parseRegion(const std::string& text)
           static_cast<int>(n[3])};
 }
 
+cv::Point
+parsePixel(const std::string& text)
+{
+  const std::vector<std::string> parts = split(text, ',');
+  long n[2] = {};
+  bool good = parts.size() == 2;
+  for (int i = 0; good && i < 2; ++i)
+    good = parse(parts[i], n[i]) && n[i] >= 0 && n[i] <= 1000000;
+  if (!good)
+    throw CLI::ValidationError(
+        "--why", "'" + text + "' is not u,v: column and row of a pixel, e.g. 320,240");
+  return {static_cast<int>(n[0]), static_cast<int>(n[1])};
+}
+
 } // namespace hoist

@@ -24,4 +24,8 @@ SensorModel parseSensor(const std::string& text);
  *  \throws CLI::ValidationError */
 cv::Rect parseRegion(const std::string& text);
 
+/** \brief "u,v": column and row of a pixel.
+ *  \throws CLI::ValidationError */
+cv::Point parsePixel(const std::string& text);
+
 } // namespace hoist

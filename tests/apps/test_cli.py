@@ -183,6 +183,15 @@ class Usage(CommandLine):
         result = hoist("recognize", "-q", frame, "--roi", "5000,0,10,10")
         self.assert_one_line(result, 2, "--roi")
 
+    def test_pixel_outside_the_frame(self):
+        frame = self.sample("scenes/crate.pcd")
+        for pixel in ("5000,0", "1", "a,b", "-1,3", "1,2,3"):
+            with self.subTest(pixel=pixel):
+                result = hoist("recognize", "-q", frame, f"--why={pixel}")
+                self.assert_one_line(result, 2, "--why")
+        result = hoist("recognize", "-q", frame, "--why", "1,2", "--mode", "paper")
+        self.assert_one_line(result, 2, "--why")
+
     def test_two_inputs_of_one_name(self):
         frame = self.sample("scenes/crate.pcd")
         (self.folder / "other").mkdir()
@@ -376,6 +385,21 @@ class Recognize(CommandLine):
         self.assertEqual(whole["cuboids"], everything["cuboids"])
         corner = self.recognize(frame, "--roi", "0,0,40,40")
         self.assertEqual(corner["cuboids"], [])
+
+    def test_why(self):
+        frame = self.sample("scenes/stacked.pcd")
+        found = self.recognize(frame)
+        camera = found["intrinsics"]
+        x, y, z = found["cuboids"][0]["center"]
+        pixel = (f"{round(camera['fx'] * x / z + camera['cx'])},"
+                 f"{round(camera['fy'] * y / z + camera['cy'])}")
+        result = hoist("recognize", "-q", frame, "--why", pixel, "--why", "0,0")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(f"pixel {pixel}: ", result.stdout)
+        self.assertIn(": recognised\n", result.stdout)
+        self.assertIn("no box was thought of here", result.stdout.split("pixel 0,0")[1])
+        strict = hoist("recognize", "-q", frame, "--why", pixel, "--min-side", "0.9")
+        self.assertNotIn(": recognised\n", strict.stdout)
 
     def test_limits(self):
         frame = self.sample("scenes/stacked.pcd")
