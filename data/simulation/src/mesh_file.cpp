@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -145,7 +146,7 @@ materialOf(const aiMaterial& from, const std::string& name, const FileSource& so
       const cv::Scalar mean = cv::mean(image);
       for (std::size_t i = 0; i < 3; ++i)
         material.color[i] =
-            static_cast<unsigned char>(mean[2 - static_cast<int>(i)] + 0.5);
+            static_cast<unsigned char>(std::lround(mean[2 - static_cast<int>(i)]));
     }
   }
   return material;
