@@ -9,6 +9,7 @@
 namespace hoist {
 namespace detail {
 namespace {
+
 constexpr int samples = 1500; // of a close look [px]
 
 // Boxes that differ by less than refinement moves them, whatever their axes are called,
@@ -111,7 +112,7 @@ CuboidJudge::glance(CuboidCandidate& c) const
 {
   c.evidence.clear();
   c.evidence.stride = 0;
-  const double known = trust(c.hypothesis);
+  const double known = trustInEnds(c.hypothesis);
   if (highestScore(known) < parameters_.min_score) {
     c.rejected = "an end is hidden";
     return;

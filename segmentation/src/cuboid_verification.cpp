@@ -49,7 +49,7 @@ certainty(const FaceEvidence& e, int stride, double longest_side)
 } // namespace
 
 double
-trust(const CuboidHypothesis& hypothesis)
+trustInEnds(const CuboidHypothesis& hypothesis)
 {
   double all = 1;
   for (const EndSource end : hypothesis.ends)
@@ -119,7 +119,7 @@ verifyCuboid(const CuboidHypothesis& h,
   evidence.flat = flat / area;
   evidence.outline = good / (good + bad);
   double product = std::pow(evidence.flat, 3) * evidence.outline * (1 - excess);
-  evidence.trust = trust(h);
+  evidence.trust = trustInEnds(h);
   product *= evidence.trust;
   if (observed < 2)
     product *= 0.5; // one face: the third dimension is a guess

@@ -30,10 +30,11 @@ struct FullMode::Workspace {
   verdicts(const FrameImages& images, const Wanted& wanted) const
   {
     std::vector<CuboidVerdict> all;
-    for (CuboidCandidate c : candidates) {
-      if (!wanted(c))
+    for (const CuboidCandidate& candidate : candidates) {
+      if (!wanted(candidate))
         continue;
-      if (c.evidence.stride == 0) {
+      CuboidCandidate c = candidate;
+      if (c.evidence.stride == 0) { // nobody has looked at it yet
         constexpr int samples = 600;
         verifyCuboid(c.hypothesis,
                      images.inverse_depth,
@@ -91,8 +92,10 @@ FullMode::segment(const FrameImages& images,
   selectCuboids(w.candidates, w.chosen);
   for (const int i : w.chosen)
     judge.judgeFully(w.candidates[i]);
-  std::stable_sort(w.chosen.begin(), w.chosen.end(), [&](int a, int b) {
-    return w.candidates[a].evidence.score > w.candidates[b].evidence.score;
+  std::sort(w.chosen.begin(), w.chosen.end(), [&](int a, int b) {
+    const double sa = w.candidates[a].evidence.score;
+    const double sb = w.candidates[b].evidence.score;
+    return sa > sb || (sa == sb && a < b);
   });
   const auto most = static_cast<std::size_t>(std::max(0, parameters.max_cuboids));
   for (const int i : w.chosen) {

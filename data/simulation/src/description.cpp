@@ -306,7 +306,7 @@ private:
          {"timbers", to(g.timbers, 0, 1)},
          {"tipped", to(g.tipped, 0, 1)},
          {"mesh", [&](const Node& n) { g.mesh = beside(read_.word(n)); }},
-         {"library", to(g.library, 0, 1)},
+         {"library", to(g.library_share, 0, 1)},
          {"split", [&](const Node& n) { g.split = splitOf(n); }}});
     if (g.kinds.empty())
       read_.fail(node, "a thing needs a kind");

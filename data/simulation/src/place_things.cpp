@@ -59,7 +59,7 @@ Site::make(const ThingGroup& group)
     request.wear = group.wear->draw(random_);
   request.full = random_.chance(group.full);
   request.mesh = group.mesh;
-  request.library = group.library > 0 && random_.chance(group.library);
+  request.from_library = group.library_share > 0 && random_.chance(group.library_share);
   request.split = group.split;
   // a generator of its own: a part more of one thing does not move the next
   Random own(random_.bits());

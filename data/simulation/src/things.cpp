@@ -105,7 +105,7 @@ makeThing(const ThingRequest& request, Random& random)
     thing.annotated = kinds[found].annotated;
     return thing;
   }
-  if (request.library && fromLibrary(request, random, thing)) {
+  if (request.from_library && fromLibrary(request, random, thing)) {
     thing.annotated = true;
     return thing;
   }

@@ -18,8 +18,8 @@ enum class EndSource : unsigned char {
   seen,      ///< outline, crease or plane
   contact,   ///< something that does not carry the box touches it there; it may go on
              ///< behind that
-  bracketed, ///< covered, but known to lie in an interval of at most 15 % of the side:
-             ///< farther out the background is seen
+  bracketed, ///< covered, but known to lie in an interval of 15 % of the side and a few
+             ///< pixels at most: farther out the background is seen
   support    ///< covered; taken from the surface it stands on or leans against
 };
 

@@ -92,9 +92,10 @@ struct CuboidEvidence {
 /** \brief How well the ends of a box are known, in [0, 1]: the product of 1 for each
  *  seen, 0.95 for each supported or bracketed, 0.92 for each touched and 0.6 for each
  *  hidden one. */
-HOIST_SEGMENTATION_EXPORT double trust(const CuboidHypothesis& hypothesis);
+HOIST_SEGMENTATION_EXPORT double trustInEnds(const CuboidHypothesis& hypothesis);
 
-/** \brief The score of a box of which the frame says nothing but good. */
+/** \brief The score of a box of which the frame says nothing but good, in [0, 1].
+ *  \param trust see trustInEnds() */
 HOIST_SEGMENTATION_EXPORT double highestScore(double trust);
 
 /** \brief Projects a cuboid into the frame and lets every pixel inside say support,

@@ -43,7 +43,7 @@ struct ThingGroup {
   double timbers = 0;                     ///< chance to lie on timbers
   double tipped = 0;                      ///< chance to lie on its side
   std::string mesh;                       ///< file; relative to the description's
-  double library = 0; ///< chance that the shape is one of the mesh library
+  double library_share = 0; ///< chance that the shape is one of the mesh library
   std::string split;  ///< of the mesh library: "train", "test", ""
 };
 
