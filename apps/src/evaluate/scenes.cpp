@@ -21,7 +21,7 @@ std::string
 keyOf(const fs::path& path)
 {
   std::string key = path.generic_string();
-  for (const char* const ending : {".json", ".pcd", ".pts", ".ply"}) {
+  for (const char* const ending : {".json", ".pcd", ".pts", ".ply", ".xyz", ".asc"}) {
     const std::string end = ending;
     if (key.size() > end.size() &&
         key.compare(key.size() - end.size(), end.size(), end) == 0)

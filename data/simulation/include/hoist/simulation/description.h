@@ -44,7 +44,7 @@ struct ThingGroup {
   double tipped = 0;                      ///< chance to lie on its side
   std::string mesh;                       ///< file; relative to the description's
   double library_share = 0; ///< chance that the shape is one of the mesh library
-  std::string split;  ///< of the mesh library: "train", "test", ""
+  std::string split;        ///< of the mesh library: "train", "test", ""
 };
 
 /** \brief What a scene is drawn from. Lengths in metres, angles in degrees. */

@@ -19,7 +19,7 @@ struct ThingRequest {
   std::optional<bool> full;   ///< of a bucket or a recycle bin
   std::optional<double> wear; ///< 0 new .. 1 battered
   std::string mesh;           ///< a file with its shape; "" makes one
-  bool from_library = false;       ///< a shape of the mesh library, if it has the kind
+  bool from_library = false;  ///< a shape of the mesh library, if it has the kind
   std::string split; ///< "train", "test": which meshes of a library may serve; "" none
 };
 
