@@ -183,7 +183,9 @@ randomScenes(std::mt19937& random, int n)
       for (std::size_t k = random() % 3; k > 0; --k) {
         Prediction p;
         const double off = uniform(random, 0, 0.06);
-        p.center = truth.center + off * Eigen::Vector3d::Random();
+        p.center = truth.center + off * Eigen::Vector3d(uniform(random, -1, 1),
+                                                        uniform(random, -1, 1),
+                                                        uniform(random, -1, 1));
         p.size = truth.size * uniform(random, 0.85, 1.15);
         p.rotation = truth.rotation * randomRotation(random, uniform(random, 0, 0.2));
         p.score = std::round(uniform(random, 0, 1) * 40) / 40; // some are equal

@@ -225,9 +225,12 @@ class Figures(Evaluate):
         self.assert_one_line(hoist("evaluate", self.truth, flat.parent), 2, "named 0")
         # names that are unique may lie anywhere, with what a batch keeps of them
         self.write("one/x/y/s1.json", frame(box(1)))
-        self.write("other/results/deep/s1.pcd.json", frame(box(1)))
-        figures, _ = self.figures(self.folder / "one", self.folder / "other")
-        self.assertEqual(figures["overall"]["levels"][0]["hits"], 1)
+        for ending in ("pcd", "pts", "ply", "xyz", "asc"):
+            with self.subTest(ending=ending):
+                self.write(f"other-{ending}/deep/s1.{ending}.json", frame(box(1)))
+                figures, _ = self.figures(
+                    self.folder / "one", self.folder / f"other-{ending}")
+                self.assertEqual(figures["overall"]["levels"][0]["hits"], 1)
 
     def test_files_that_are_no_annotations_or_results_are_told(self):
         self.write("truth/a.json", frame(box(0)))

@@ -17,11 +17,13 @@ namespace hoist {
 std::vector<Eigen::Vector3d>
 pointsOf(const cv::Mat1b& mask, const cv::Mat1f& depth, const Intrinsics& camera);
 
-/** \brief The smallest upright box around points, but for one in a hundred on each
- * side.
+/** \brief The upright box around points, but for one in a hundred on each side.
  *
- * Its last axis is \a up, the other two are those of the rectangle of the smallest area
- * around the points seen from above. What is not seen of a thing is not in its box.
+ * Its last axis is \a up. Seen from above, the other two are those of the rectangle to
+ * whose sides the points are nearest on average, searched to a tenth of a degree. What
+ * is not seen of a thing is not in its box.
+ * \param points camera frame [m]
+ * \param up in the camera frame, of any length but 0
  * \return nothing of fewer than 20 points or of a box without extent */
 std::optional<OrientedBox> uprightBox(const std::vector<Eigen::Vector3d>& points,
                                       const Eigen::Vector3d& up);
