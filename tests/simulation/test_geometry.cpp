@@ -128,8 +128,10 @@ TEST(Render, DepthIsThatOfAnalyticBoxes)
     const simulation::RayCaster caster(scene);
     const simulation::Lens lens(scene.sensor.camera, scene.sensor.distortion);
     const cv::Size size(scene.sensor.width, scene.sensor.height);
-    const simulation::Layer layer =
-        simulation::castLayer(caster, lens, size, scene.sensor_to_world);
+    const simulation::Layer layer = simulation::layerOf(
+        simulation::castPixels(caster, lens, size, scene.sensor_to_world),
+        lens,
+        scene.sensor_to_world);
     std::vector<int> things;
     const samples::Scene truth = analytic(scene, things);
     int differing = 0;

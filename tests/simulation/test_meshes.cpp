@@ -88,6 +88,33 @@ TEST(Mesh, ThatIsMissingIsSaid)
   EXPECT_THROW(simulation::makeScene(description, 1, 0), LoadError);
 }
 
+TEST(Mesh, NamesOfMaterialsSayWhatItIsMadeOf)
+{
+  EXPECT_EQ(simulation::substanceNamed("RED_OAK.001"), "wood");
+  EXPECT_EQ(simulation::substanceNamed("Brushed_Aluminium"), "metal");
+  EXPECT_EQ(simulation::substanceNamed("METAL_chrome"), "metal");
+  EXPECT_EQ(simulation::substanceNamed("plastico_gris"), "plastic");
+  EXPECT_EQ(simulation::substanceNamed("Office_CH_fabric"), "fabric");
+  EXPECT_EQ(simulation::substanceNamed("PAINT_white"), ""); // on what, nobody knows
+  EXPECT_EQ(simulation::substanceNamed("Material.001"), "");
+
+  const TempFolder folder;
+  folder.write("stool.mtl",
+               "newmtl Chrome\nKd 0.5 0.5 0.5\nnewmtl Oak\nKd 0.6 0.4 0.2\n");
+  const std::string file =
+      folder.write("stool.obj",
+                   "mtllib stool.mtl\n"
+                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                   "v 0 0 1\nv 0.1 0 1\nv 0 0.1 1\n"
+                   "usemtl Oak\nf 1 2 3 4\nusemtl Chrome\nf 5 6 7\n");
+  const simulation::LoadedMesh stool = simulation::loadMesh(file);
+  EXPECT_EQ(simulation::substanceOfMost(stool), "wood");
+  ASSERT_EQ(stool.substances.size(), stool.materials.size());
+  for (const simulation::Mesh::Triangle& t : stool.mesh.triangles)
+    EXPECT_EQ(stool.materials[t.material].metal,
+              stool.substances[t.material] == "metal");
+}
+
 TEST(Library, ShapesHaveTheirSizesAndNoneIsInBothSplits)
 {
   if (!std::filesystem::exists("/usr/share/sweethome3d/furniture/Scopia.sh3f"))

@@ -47,7 +47,11 @@ struct Alone {
 };
 
 Alone
-countAlone(const Scene& scene, const RayCaster& caster, const Lens& lens, int number)
+countAlone(const Scene& scene,
+           const RayCaster& caster,
+           const Lens& lens,
+           const Layer& layer,
+           int number)
 {
   const Thing& thing = scene.things[static_cast<std::size_t>(number)];
   const Sensor& sensor = scene.sensor;
@@ -87,7 +91,8 @@ countAlone(const Scene& scene, const RayCaster& caster, const Lens& lens, int nu
       const bool in = u >= 0 && v >= 0 && u < sensor.width && v < sensor.height;
       if (!in && ((u | v) & 3) != 0) // outside every fourth each way will do
         continue;
-      if (caster.meets(number, origin, scene.sensor_to_world.linear() * lens.ray(u, v)))
+      if ((in && layer.thing(v, u) == number) || // what is seen needs no ray
+          caster.meets(number, origin, scene.sensor_to_world.linear() * lens.ray(u, v)))
         (in ? alone.inside : alone.outside) += in ? 1 : 16;
     }
   return alone;
@@ -173,7 +178,7 @@ annotate(const Scene& scene, const RayCaster& caster, const Layer& layer)
     if (!thing.annotated || seen.visible == 0)
       continue;
     AnnotatedObject object = describe(thing, to_camera);
-    const Alone alone = countAlone(scene, caster, lens, static_cast<int>(i));
+    const Alone alone = countAlone(scene, caster, lens, layer, static_cast<int>(i));
     object.visible_pixels = seen.visible;
     object.visible_fraction =
         std::min(1.0, static_cast<double>(seen.visible) / std::max(1.0, alone.inside));

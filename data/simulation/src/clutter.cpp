@@ -7,12 +7,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d
-circlePoint(double turn, double radius, double z)
-{
-  return {radius * cosineOfTurns(turn), radius * sineOfTurns(turn), z};
-}
-
 void
 makeRound(ThingBuilder& builder,
           double radius,

@@ -91,7 +91,7 @@ addRods(ThingBuilder& builder, const Shell& s, Random& random)
     // it rests on the rim, so it passes inside of it
     const double at_rim = (s.height - foot.z()) / (top.z() - foot.z());
     const Vector3d rim = foot + (top - foot) * at_rim;
-    const double out = std::hypot(rim.x() / s.top_x, rim.y() / s.top_y);
+    const double out = Eigen::Vector2d(rim.x() / s.top_x, rim.y() / s.top_y).norm();
     if (out > 0.85)
       top.head<2>() = foot.head<2>() + (top - foot).head<2>() * (0.8 / out);
     builder.add(tubeMesh({foot, top}, {random.uniform(0.008, 0.018)}, 10, rod));
@@ -114,7 +114,7 @@ addHeap(ThingBuilder& builder, const Shell& s, Random& random)
                                    random.uniform(0.12, 0.3)) *
                           size;
     Vector3d place = inOpening(s, 0.72, 0, random);
-    const double out = std::hypot(place.x() / s.top_x, place.y() / s.top_y);
+    const double out = Eigen::Vector2d(place.x() / s.top_x, place.y() / s.top_y).norm();
     place.z() = s.height * 0.93 + size * (0.62 - 0.75 * out) * random.uniform(0.3, 1);
     builder.add(stoneMesh(half, stone, random), place);
   }

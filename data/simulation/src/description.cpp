@@ -1,11 +1,10 @@
 #include <hoist/simulation/description.h>
 
+#include "read_file.h"
 #include "yaml_reader.h"
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace hoist {
 namespace simulation {
@@ -358,11 +357,10 @@ parseDescription(const std::string& text, const std::string& file)
 Description
 loadDescription(const std::string& file)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  if (!in || !(text << in.rdbuf()))
+  const std::optional<std::string> text = readFile(file);
+  if (!text)
     throw LoadError(file, "", "cannot be read");
-  return parseDescription(text.str(), file);
+  return parseDescription(*text, file);
 }
 
 } // namespace simulation

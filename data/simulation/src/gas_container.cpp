@@ -6,12 +6,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d
-onCircle(double turn, double radius, double z)
-{
-  return {radius * cosineOfTurns(turn), radius * sineOfTurns(turn), z};
-}
-
 // Round bottles for gas: the profile of a turned body.
 void
 addBottle(ThingBuilder& builder,
@@ -49,11 +43,11 @@ addBottle(ThingBuilder& builder,
     std::vector<Vector3d> collar;
     for (int i = 0; i <= 18; ++i)
       collar.push_back(
-          onCircle(0.08 + 0.84 * i / 18, 0.62 * radius, height - 0.12 * radius));
+          circlePoint(0.08 + 0.84 * i / 18, 0.62 * radius, height - 0.12 * radius));
     builder.add(tubeMesh(collar, {0.09 * radius}, 8, body));
     for (const double turn : {0.2, 0.5, 0.8})
-      builder.add(tubeMesh({onCircle(turn, 0.6 * radius, height - 0.75 * radius),
-                            onCircle(turn, 0.62 * radius, height - 0.12 * radius)},
+      builder.add(tubeMesh({circlePoint(turn, 0.6 * radius, height - 0.75 * radius),
+                            circlePoint(turn, 0.62 * radius, height - 0.12 * radius)},
                            {0.06 * radius},
                            6,
                            body));

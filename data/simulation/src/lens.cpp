@@ -39,18 +39,15 @@ Lens::project(const Eigen::Vector3d& p) const
   return {camera_.fx * d.x() + camera_.cx, camera_.fy * d.y() + camera_.cy};
 }
 
-Layer
-castLayer(const RayCaster& caster,
-          const Lens& lens,
-          const cv::Size& size,
-          const Eigen::Isometry3d& pose)
+PixelHits
+castPixels(const RayCaster& caster,
+           const Lens& lens,
+           const cv::Size& size,
+           const Eigen::Isometry3d& pose)
 {
-  Layer layer;
-  layer.thing.create(size);
-  layer.face.create(size);
-  layer.depth.create(size);
-  layer.cosine.create(size);
-  layer.normal.create(size);
+  PixelHits seen;
+  seen.size = size;
+  seen.hits.resize(static_cast<std::size_t>(size.area()));
   const Eigen::Vector3d origin = pose.translation();
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; u += 4) {
@@ -60,19 +57,37 @@ castLayer(const RayCaster& caster,
         directions[i] = pose.linear() * lens.ray(u + std::min(i, count - 1), v);
       Hit hits[4];
       caster.cast4(origin, directions, hits);
-      for (int i = 0; i < count; ++i) {
-        const Hit& hit = hits[i];
-        layer.thing(v, u + i) = hit.thing;
-        layer.face(v, u + i) = hit.face;
-        const Eigen::Vector3f normal =
-            (pose.linear().transpose() * hit.normal).cast<float>();
-        layer.normal(v, u + i) = {normal.x(), normal.y(), normal.z()};
-        // rays have z = 1, so that the distance along them is the depth
-        layer.depth(v, u + i) =
-            hit.thing < 0 ? std::numeric_limits<double>::quiet_NaN() : hit.distance;
-        layer.cosine(v, u + i) = static_cast<float>(
-            hit.thing < 0 ? 0 : -hit.normal.dot(directions[i]) / directions[i].norm());
-      }
+      std::copy_n(
+          hits, count, &seen.hits[static_cast<std::size_t>(v) * size.width + u]);
+    }
+  return seen;
+}
+
+Layer
+layerOf(const PixelHits& seen, const Lens& lens, const Eigen::Isometry3d& pose)
+{
+  Layer layer;
+  layer.thing.create(seen.size);
+  layer.face.create(seen.size);
+  layer.depth.create(seen.size);
+  layer.cosine.create(seen.size);
+  layer.normal.create(seen.size);
+  const Eigen::Matrix3d to_camera = pose.linear().transpose();
+  for (int v = 0; v < seen.size.height; ++v)
+    for (int u = 0; u < seen.size.width; ++u) {
+      const Hit& hit = seen(u, v);
+      layer.thing(v, u) = hit.thing;
+      layer.face(v, u) = hit.face;
+      const Eigen::Vector3d normal = to_camera * hit.normal;
+      layer.normal(v, u) = {static_cast<float>(normal.x()),
+                            static_cast<float>(normal.y()),
+                            static_cast<float>(normal.z())};
+      // rays have z = 1, so that the distance along them is the depth
+      layer.depth(v, u) =
+          hit.thing < 0 ? std::numeric_limits<double>::quiet_NaN() : hit.distance;
+      const Eigen::Vector3d ray = lens.ray(u, v);
+      layer.cosine(v, u) =
+          static_cast<float>(hit.thing < 0 ? 0 : -normal.dot(ray) / ray.norm());
     }
   return layer;
 }

@@ -9,8 +9,6 @@ namespace hoist {
 namespace simulation {
 namespace {
 
-constexpr double degree = 1.0 / 360; // [turns]
-
 std::string
 padded(int number)
 {
@@ -45,9 +43,8 @@ lightUp(const Description& d, std::uint64_t seed, Scene& scene)
                            : Eigen::Vector3f(0.97f, 1.0f, 1.03f) * sky;
   if (shines)
     light.sun_power = sunColor(elevation) * static_cast<float>(sun_power);
-  const int lamps =
-      static_cast<int>(std::floor(random.uniform(d.lamps.low, d.lamps.high + 1)));
-  for (int i = 0; i < std::min(lamps, static_cast<int>(d.lamps.high)); ++i) {
+  const int lamps = d.lamps.drawWhole(random);
+  for (int i = 0; i < lamps; ++i) {
     Lamp lamp;
     lamp.position = {d.area[0] * random.uniform(-0.5, 0.5),
                      d.area[1] * random.uniform(-0.5, 0.5),
@@ -191,6 +188,18 @@ placeOfFrame(const Description& d, std::uint64_t seed, int number)
 
 } // namespace
 
+std::string
+frameName(const Description& description, int number)
+{
+  return description.name + "-" + padded(number);
+}
+
+std::uint64_t
+frameSeed(std::uint64_t seed, int number)
+{
+  return subSeed(seed, "frame", static_cast<std::uint64_t>(number));
+}
+
 Scene
 makeScene(const Description& description, std::uint64_t seed, int number)
 {
@@ -199,9 +208,9 @@ makeScene(const Description& description, std::uint64_t seed, int number)
   for (int visit = 1; visit <= place.visit; ++visit)
     site.revisit(visit);
   Scene scene = site.scene();
-  scene.name = description.name + "-" + padded(number);
+  scene.name = frameName(description, number);
   scene.sensor = description.sensor;
-  scene.seed = subSeed(seed, "frame", static_cast<std::uint64_t>(number));
+  scene.seed = frameSeed(seed, number);
   if (description.visits == 0) {
     lightUp(description, place.site_seed, scene);
     aim(description, site, place.site_seed, scene);

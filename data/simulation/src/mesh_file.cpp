@@ -1,3 +1,4 @@
+#include "read_file.h"
 #include <hoist/data/load_error.h>
 #include <hoist/simulation/mesh_file.h>
 
@@ -15,8 +16,8 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <map>
+#include <utility>
 
 namespace hoist {
 namespace simulation {
@@ -131,6 +132,10 @@ materialOf(const aiMaterial& from, const std::string& name, const FileSource& so
   float shininess = 0;
   from.Get(AI_MATKEY_SHININESS, shininess);
   material.gloss = std::clamp(static_cast<double>(shininess) / 1000, 0.0, 0.3);
+  if (substanceNamed(from.GetName().C_Str()) == "metal") {
+    material.metal = true;
+    material.gloss = std::max(material.gloss, 0.3);
+  }
   aiString picture;
   if (from.GetTexture(aiTextureType_DIFFUSE, 0, &picture) == aiReturn_SUCCESS) {
     const auto bytes =
@@ -191,6 +196,47 @@ endsInObj(const std::string& name)
 
 } // namespace
 
+std::string
+substanceNamed(const std::string& material)
+{
+  // English, and what the library's authors speak; paint hides what is under it
+  static const std::vector<std::pair<const char*, const char*>> words = {
+      {"plasti", "plastic"}, {"plzstic", "plastic"}, {"rubber", "plastic"},
+      {"paint", ""},         {"metal", "metal"},     {"chrom", "metal"},
+      {"alumin", "metal"},   {"steel", "metal"},     {"wood", "wood"},
+      {"oak", "wood"},       {"pine", "wood"},       {"theca", "wood"},
+      {"madeira", "wood"},   {"fusta", "wood"},      {"rattan", "wood"},
+      {"cloth", "fabric"},   {"fabric", "fabric"},   {"textile", "fabric"},
+      {"cushion", "fabric"}, {"tela", "fabric"},     {"coixi", "fabric"},
+      {"estofa", "fabric"}};
+  std::string name = material;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  for (const auto& [word, substance] : words)
+    if (name.find(word) != std::string::npos)
+      return substance;
+  return "";
+}
+
+std::string
+substanceOfMost(const LoadedMesh& shape)
+{
+  std::map<std::string, double> areas;
+  for (const Mesh::Triangle& t : shape.mesh.triangles) {
+    const Eigen::Vector3d& a = shape.mesh.vertices[t.corners[0]];
+    areas[shape.substances[t.material]] +=
+        (shape.mesh.vertices[t.corners[1]] - a)
+            .cross(shape.mesh.vertices[t.corners[2]] - a)
+            .norm();
+  }
+  const auto most =
+      std::max_element(areas.begin(), areas.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  return most == areas.end() ? std::string() : most->first;
+}
+
 LoadedMesh
 loadMesh(const std::string& name, const FileSource& source)
 {
@@ -208,8 +254,11 @@ loadMesh(const std::string& name, const FileSource& source)
   if (scene == nullptr)
     throw LoadError(name, "", importer.GetErrorString());
   LoadedMesh out;
-  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
-    out.materials.push_back(materialOf(*scene->mMaterials[i], name, source));
+  for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
+    const aiMaterial& material = *scene->mMaterials[i];
+    out.materials.push_back(materialOf(material, name, source));
+    out.substances.push_back(substanceNamed(material.GetName().C_Str()));
+  }
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     addMesh(*scene->mMeshes[i], out, name);
   if (out.mesh.triangles.empty())
@@ -222,17 +271,10 @@ loadMesh(const std::string& name, const FileSource& source)
 LoadedMesh
 loadMesh(const std::string& file)
 {
-  const FileSource disk = [](const std::string& name) -> std::optional<std::string> {
-    std::ifstream in(name, std::ios::binary);
-    std::stringstream bytes;
-    if (!in || !(bytes << in.rdbuf()))
-      return std::nullopt;
-    return bytes.str();
-  };
   if (endsInObj(file))
-    if (const std::optional<std::string> text = disk(file))
+    if (const std::optional<std::string> text = readFile(file))
       checkObj(*text, file);
-  return loadMesh(file, disk);
+  return loadMesh(file, readFile);
 }
 
 } // namespace simulation

@@ -3,37 +3,71 @@
 #include <hoist/simulation/random.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hoist {
 namespace simulation {
 
+namespace {
+
+// The C library's floor is a call where the processor's own may not be used (SSE2).
+std::int64_t
+floorOf(double x)
+{
+  const auto whole = static_cast<std::int64_t>(x);
+  return whole - (x < static_cast<double>(whole) ? 1 : 0);
+}
+
+constexpr std::size_t numbers = 4096;
+
+// The middles of as many equal parts of [0, 1], shuffled: mean 1/2, evenly spread.
+constexpr std::array<float, numbers>
+shuffled()
+{
+  std::array<float, numbers> list{};
+  for (std::size_t i = 0; i < numbers; ++i)
+    list[i] = (static_cast<float>(i) + 0.5f) / numbers;
+  std::uint64_t state = 1;
+  for (std::size_t i = numbers - 1; i > 0; --i) {
+    // Knuth's generator of 64 bits; its upper bits are good
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    const std::size_t j = (state >> 33) % (i + 1);
+    const float other = list[j];
+    list[j] = list[i];
+    list[i] = other;
+  }
+  return list;
+}
+
+constexpr std::array<float, numbers> lattice = shuffled();
+
+} // namespace
+
 double
 latticeNoise(const Eigen::Vector3d& p, std::uint64_t seed)
 {
-  const double fx = std::floor(p.x()), fy = std::floor(p.y()), fz = std::floor(p.z());
-  const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy),
-             iz = static_cast<std::int64_t>(fz);
+  const std::int64_t ix = floorOf(p.x()), iy = floorOf(p.y()), iz = floorOf(p.z());
   const auto smooth = [](double a) { return a * a * (3 - 2 * a); };
-  const double a = smooth(p.x() - fx), b = smooth(p.y() - fy), c = smooth(p.z() - fz);
-  // one hash gives the four corners of a side: 16 bits each
-  double side[2][4];
-  for (int k = 0; k < 2; ++k)
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) {
-        std::uint64_t h = seed ^
-                          (static_cast<std::uint64_t>(ix + i) * 0x9e3779b97f4a7c15ULL) ^
-                          (static_cast<std::uint64_t>(iy + j) * 0xc2b2ae3d27d4eb4fULL) ^
-                          (static_cast<std::uint64_t>(iz + k) * 0x165667b19e3779f9ULL);
-        h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
-        h ^= h >> 32;
-        side[k][2 * j + i] = static_cast<double>(h >> 40 & 0xffff) * (1.0 / 65536);
-      }
-  const auto mixed = [&](const double* s) {
-    const double low = s[0] + (s[1] - s[0]) * a, high = s[2] + (s[3] - s[2]) * a;
-    return low + (high - low) * b;
-  };
-  const double near = mixed(side[0]), far = mixed(side[1]);
+  const double a = smooth(p.x() - static_cast<double>(ix)),
+               b = smooth(p.y() - static_cast<double>(iy)),
+               c = smooth(p.z() - static_cast<double>(iz));
+  double rows[4]; // between the two corners of every row along x
+  for (unsigned k = 0; k < 2; ++k)
+    for (unsigned j = 0; j < 2; ++j) {
+      // every row of the lattice starts somewhere else in the list
+      std::uint64_t h = seed ^
+                        (static_cast<std::uint64_t>(iy) + j) * 0xc2b2ae3d27d4eb4fULL ^
+                        (static_cast<std::uint64_t>(iz) + k) * 0x165667b19e3779f9ULL;
+      h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
+      h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93ULL;
+      const std::uint64_t start = (h >> 40) + static_cast<std::uint64_t>(ix);
+      const double low = lattice[start % numbers],
+                   high = lattice[(start + 1) % numbers];
+      rows[2 * k + j] = low + (high - low) * a;
+    }
+  const double near = rows[0] + (rows[1] - rows[0]) * b,
+               far = rows[2] + (rows[3] - rows[2]) * b;
   return near + (far - near) * c;
 }
 

@@ -15,29 +15,17 @@ using Eigen::Vector3f;
 
 constexpr int sky_step = 5; // the open share of the sky changes slowly [px]
 
-// What the first ray of a pixel met.
-struct Seen {
-  std::vector<Hit> hits;
-  cv::Size size;
-
-  const Hit&
-  operator()(int u, int v) const
-  {
-    return hits[static_cast<std::size_t>(v) * size.width + u];
-  }
-};
-
 class Photographer {
 public:
   Photographer(const RayCaster& caster,
                const Scene& scene,
                const Lens& lens,
-               const cv::Size& size,
+               const PixelHits& seen,
                const Eigen::Isometry3d& pose)
-  : caster_(caster), scene_(scene), lens_(lens), size_(size), pose_(pose)
+  : caster_(caster), scene_(scene), lens_(lens), seen_(seen), pose_(pose)
   {
-    pixel_angle_ = (lens.ray(size.width / 2.0 + 1, size.height / 2.0) -
-                    lens.ray(size.width / 2.0, size.height / 2.0))
+    pixel_angle_ = (lens.ray(size_.width / 2.0 + 1, size_.height / 2.0) -
+                    lens.ray(size_.width / 2.0, size_.height / 2.0))
                        .norm();
   }
 
@@ -45,7 +33,6 @@ public:
   cv::Mat3f
   take()
   {
-    castPixels();
     castSky();
     cv::Mat3f picture(size_);
     for (int v = 0; v < size_.height; ++v)
@@ -99,24 +86,6 @@ private:
     Vector3f lights[4];
     lightsAt(samples, 4, lights);
     return (middle + lights[0] + lights[1] + lights[2] + lights[3]) / 5;
-  }
-
-  void
-  castPixels()
-  {
-    seen_.size = size_;
-    seen_.hits.resize(static_cast<std::size_t>(size_.area()));
-    for (int v = 0; v < size_.height; ++v)
-      for (int u = 0; u < size_.width; u += 4) {
-        const int count = std::min(4, size_.width - u);
-        Vector3d directions[4];
-        for (int i = 0; i < 4; ++i)
-          directions[i] = direction(u + std::min(i, count - 1), v);
-        Hit hits[4];
-        caster_.cast4(pose_.translation(), directions, hits);
-        std::copy_n(
-            hits, count, &seen_.hits[static_cast<std::size_t>(v) * size_.width + u]);
-      }
   }
 
   // What is known of the sky at one pixel of many.
@@ -263,10 +232,10 @@ private:
   const RayCaster& caster_;
   const Scene& scene_;
   const Lens& lens_;
-  cv::Size size_;
+  const PixelHits& seen_;
+  cv::Size size_ = seen_.size;
   Eigen::Isometry3d pose_;
   double pixel_angle_ = 0;
-  Seen seen_;
   cv::Size sky_size_;
   std::vector<Cell> cells_;
   std::vector<float> direct_[4];
@@ -339,12 +308,13 @@ cv::Mat3b
 photograph(const RayCaster& caster,
            const Scene& scene,
            const Lens& lens,
-           const cv::Size& size,
+           const PixelHits& seen,
            const Eigen::Isometry3d& pose,
            const Exposure& exposure,
            double* key)
 {
-  cv::Mat3f picture = Photographer(caster, scene, lens, size, pose).take();
+  const cv::Size size = seen.size;
+  cv::Mat3f picture = Photographer(caster, scene, lens, seen, pose).take();
   if (exposure.blur > 0)
     blurred(picture, exposure.blur);
   const double grey = exposure.key > 0 ? exposure.key : metered(picture);

@@ -7,8 +7,6 @@ namespace hoist {
 namespace simulation {
 namespace {
 
-constexpr double degree = 1.0 / 360; // [turns]
-
 // A quarter, a half or three quarters about x or y: onto a side or upside down.
 Eigen::Matrix3d
 tippedOver(Random& random)
@@ -74,9 +72,10 @@ Site::addGroup(int number, int count, const char* status)
   const ThingGroup& group = description_.things[static_cast<std::size_t>(number)];
   for (int k = 0; k < count; ++k) {
     Thing thing = make(group);
-    const int own = static_cast<int>(scene_.things.size());
-    thing.name = group.name.empty() || k > 0 ? thing.kind + "-" + std::to_string(own)
-                                             : group.name;
+    // the description's name is that of the first at the first visit
+    thing.name = group.name.empty() || k > 0 || status != nullptr
+                     ? thing.kind + "-" + nextNumber()
+                     : group.name;
     if (status != nullptr && thing.annotated)
       thing.status = ObjectStatus::added;
     Placed placed{};
@@ -84,6 +83,12 @@ Site::addGroup(int number, int count, const char* status)
     if (place(thing, group, placed))
       commit(std::move(thing), placed);
   }
+}
+
+std::string
+Site::nextNumber() const
+{
+  return std::to_string(scene_.things.size() + gone_);
 }
 
 void
@@ -247,7 +252,7 @@ Site::layTimbers(const Footprint& load, const Placed& placed)
     Random own(random_.bits());
     Thing timber = makeThing(request, own);
     timber.kind = request.kind;
-    timber.name = "timber-" + std::to_string(scene_.things.size());
+    timber.name = "timber-" + nextNumber();
     Placed below{};
     below.group = placed.group;
     below.footprint.center = load.center + way * (reach * where);

@@ -29,6 +29,7 @@ Site::revisit(int visit)
       thing.status = ObjectStatus::removed;
       scene_.removed.push_back(thing);
       gone[before[i].thing] = true;
+      ++gone_;
     }
     else if (fate < description_.gone + description_.moved)
       moved.push_back(before[i].thing);

@@ -24,6 +24,12 @@ exposureOf(const Scene& scene, const char* eye)
   return exposure;
 }
 
+bool
+misregistered(const Sensor& sensor)
+{
+  return !sensor.registration_shift.isZero(0) || !sensor.registration_turn.isZero(0);
+}
+
 // Where the colour camera really stands, against where the driver believes it does.
 Eigen::Isometry3d
 registrationError(const Sensor& sensor)
@@ -31,8 +37,15 @@ registrationError(const Sensor& sensor)
   Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
   const Eigen::Vector3d& turn = sensor.registration_turn;
   const double angle = turn.norm();
-  if (angle > 0)
-    error.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  if (angle > 0) {
+    // Rodrigues' formula, with sines that are the same everywhere
+    constexpr double turns = 0.15915494309189535; // 1 / (2 pi)
+    const Eigen::Vector3d axis = turn / angle;
+    Eigen::Matrix3d cross;
+    cross << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+    error.linear() += sineOfTurns(angle * turns) * cross +
+                      (1 - cosineOfTurns(angle * turns)) * cross * cross;
+  }
   error.translation() = sensor.registration_shift;
   return error;
 }
@@ -51,10 +64,11 @@ stereoDepth(const RayCaster& caster,
   left_camera.cy += sensor.eye_misalignment;
   Exposure exposure = exposureOf(scene, "left eye");
   exposure.key = key; // both eyes share their shutter
+  const Lens lens(left_camera, sensor.distortion);
   const cv::Mat3b left = photograph(caster,
                                     scene,
-                                    Lens(left_camera, sensor.distortion),
-                                    right.size(),
+                                    lens,
+                                    castPixels(caster, lens, right.size(), left_pose),
                                     left_pose,
                                     exposure);
   cv::Mat1b grey_right, grey_left;
@@ -93,20 +107,21 @@ simulate(const Scene& scene)
   Frame frame;
   frame.camera = sensor.believed();
   frame.pose = scene.sensor_to_world;
-  frame.exact = castLayer(caster, lens, size, scene.sensor_to_world);
+  PixelHits seen = castPixels(caster, lens, size, scene.sensor_to_world);
+  frame.exact = layerOf(seen, lens, scene.sensor_to_world);
+  Eigen::Isometry3d color_pose = scene.sensor_to_world;
+  if (misregistered(sensor)) {
+    color_pose = color_pose * registrationError(sensor);
+    seen = castPixels(caster, lens, size, color_pose);
+  }
   double key = 0;
-  frame.color = photograph(caster,
-                           scene,
-                           lens,
-                           size,
-                           scene.sensor_to_world * registrationError(sensor),
-                           exposureOf(scene, "right eye"),
-                           &key);
+  frame.color = photograph(
+      caster, scene, lens, seen, color_pose, exposureOf(scene, "right eye"), &key);
   frame.depth = sensor.kind == SensorKind::stereo
                     ? stereoDepth(caster, scene, frame.color, key)
                     : measureDepth(caster, scene, frame.exact, lens);
   frame.truth = annotate(scene, caster, frame.exact);
-  if (sensor.registration_shift.norm() + sensor.registration_turn.norm() > 0)
+  if (misregistered(sensor))
     frame.truth.registration = registrationError(sensor).inverse();
   frame.instances.create(size);
   for (int v = 0; v < size.height; ++v)

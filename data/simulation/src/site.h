@@ -45,6 +45,7 @@ private:
   void layTimbers(const Footprint& load, const Placed& placed);
   bool collides(const Footprint& footprint, double bottom, double top) const;
   Thing make(const ThingGroup& group);
+  std::string nextNumber() const;
   void commit(Thing thing, Placed placed);
 
   const Description& description_;
@@ -53,7 +54,8 @@ private:
   Scene scene_;
   std::vector<Placed> placed_;
   int next_label_ = 1;
-  int carrier_ = -1; ///< index in placed_ of what the thing being placed stands on
+  std::size_t gone_ = 0; ///< things removed so far: numbers in names are not used again
+  int carrier_ = -1;     ///< index in placed_ of what the thing being placed stands on
 };
 
 } // namespace simulation

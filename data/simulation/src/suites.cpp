@@ -71,7 +71,7 @@ area: [7, 7]
 )") + yard +
            crane_things},
       {"crane-tof",
-       "the same with a depth camera at 2 to 9 m",
+       "the same with a depth camera at 2.5 to 9 m",
        200,
        51002,
        "pcd",
@@ -82,18 +82,18 @@ area: [6, 6]
 )") + yard +
            crane_things},
       {"table-kinect",
-       "cartons and boxes on a table, Kinect at 0.7 to 1.8 m",
+       "cartons and boxes on a table, Kinect at 0.8 to 1.8 m",
        200,
        51003,
        "pcd",
        R"(name: table-kinect
-sensor: {kind: kinect, exposure: [-0.5, 0.4], white_balance_error: 0.08, registration_error: 0.002}
+sensor: {kind: kinect, exposure: [-0.1, 0.6], white_balance_error: 0.08, registration_error: 0.002}
 camera: {distance: [0.8, 1.8], elevation: [25, 60], roll: [-3, 3], target_jitter: 0.2}
 table: [[1.1, 1.5], [0.7, 0.9], [0.7, 0.78]]
 ground: {texture: [plaster, wood, concrete]}
 walls: {count: [1, 3], distance: 1.6, height: 2.8}
 area: [3, 3]
-light: {sun: 0, sky_power: [0.25, 0.6], lamps: [1, 3], lamp_power: [2, 6]}
+light: {sun: 0, sky_power: [0.8, 1.2], lamps: [1, 3], lamp_power: [1, 4]}
 things:
   - {kind: carton, count: [1, 3], size: [[0.12, 0.35], [0.08, 0.25], [0.06, 0.25]], tipped: 0.2}
   - {kind: [carton, box], count: [0, 3], size: [[0.1, 0.3], [0.08, 0.2], [0.05, 0.2]], stacked: 0.4, touching: 0.3}

@@ -86,8 +86,15 @@ ringAt(double z,
   return ring;
 }
 
-/** \brief Which of \a count shapes of a class: of those to learn from, or of the last
- *  third, which is for testing only. */
+/** \brief The point of a circle around the z axis after a \a turn of it from x. */
+inline Eigen::Vector3d
+circlePoint(double turn, double radius, double z)
+{
+  return {radius * cosineOfTurns(turn), radius * sineOfTurns(turn), z};
+}
+
+/** \brief Which of \a count shapes of a class, count > 1: one to learn from, or one of
+ *  the last third (at least one; of three to five the last), for testing only. */
 int variantFor(const ThingRequest& request, int count, Random& random);
 
 /** \brief The colour asked for, or one like those in the list. */

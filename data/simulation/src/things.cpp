@@ -67,16 +67,18 @@ fromLibrary(const ThingRequest& request, Random& random, Thing& thing)
   if (fitting.empty())
     return false;
   const LibraryMesh& chosen = *random.pick(fitting);
-  thing = fromShape(request, *libraryShape(chosen), random);
-  thing.substance = chosen.substance;
+  const std::shared_ptr<const LoadedMesh> shape = libraryShape(chosen);
+  thing = fromShape(request, *shape, random);
+  // a plant is organic, whatever its pot is
+  const std::string said =
+      request.kind == "plant" ? std::string() : substanceOfMost(*shape);
+  thing.substance = said.empty() ? chosen.substance : said;
   thing.mesh_file = chosen.archive + ":" + chosen.model;
   thing.density = 60;
   if (request.kind == "recycle bin")
     thing.full = false; // as the catalogue has them
   return true;
 }
-
-constexpr std::size_t first_class = 10, first_clutter = 18;
 
 } // namespace
 
@@ -97,21 +99,22 @@ findKind(const std::string& kind)
 Thing
 makeThing(const ThingRequest& request, Random& random)
 {
-  const auto found = static_cast<std::size_t>(findKind(request.kind) - kinds.data());
+  // the list has lifting elements first, then the eight classes, then clutter
+  const KindTraits* found = findKind(request.kind);
   Thing thing;
   if (!request.mesh.empty()) {
     thing = fromShape(request, loadMesh(request.mesh), random);
     thing.mesh_file = request.mesh;
-    thing.annotated = kinds[found].annotated;
+    thing.annotated = found->annotated;
     return thing;
   }
   if (request.from_library && fromLibrary(request, random, thing)) {
     thing.annotated = true;
     return thing;
   }
-  if (found >= first_clutter)
+  if (found >= findKind("pipe"))
     return makeClutter(request, random);
-  if (found >= first_class)
+  if (found >= findKind("safety cone"))
     return makeWorksiteThing(request, random);
   return makeElement(request, random);
 }

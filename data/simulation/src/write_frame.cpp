@@ -99,6 +99,28 @@ writeCloud(const fs::path& path, Writer writer)
 
 } // namespace
 
+std::vector<fs::path>
+frameFiles(const fs::path& stem, const std::vector<FrameFormat>& formats)
+{
+  std::vector<fs::path> files;
+  for (const FrameFormat format : formats)
+    switch (format) {
+    case FrameFormat::pcd:
+      files.push_back(named(stem, ".pcd"));
+      break;
+    case FrameFormat::pts:
+      files.push_back(named(stem, ".pts"));
+      break;
+    case FrameFormat::compact:
+      files.push_back(named(stem, ".jpg"));
+      files.push_back(named(stem, ".depth.png"));
+      break;
+    }
+  files.push_back(named(stem, ".instances.png"));
+  files.push_back(named(stem, ".json"));
+  return files;
+}
+
 std::uint64_t
 writeFrame(const Frame& frame,
            const fs::path& stem,

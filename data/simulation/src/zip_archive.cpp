@@ -1,11 +1,11 @@
 #include "zip_archive.h"
 
+#include "read_file.h"
 #include <hoist/data/load_error.h>
 
 #include <zlib.h>
 
-#include <fstream>
-#include <sstream>
+#include <utility>
 
 namespace hoist {
 namespace simulation {
@@ -29,11 +29,10 @@ ZipArchive::number(std::size_t at, int bytes) const
 
 ZipArchive::ZipArchive(const std::string& file) : file_(file)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream content;
-  if (!in || !(content << in.rdbuf()))
+  std::optional<std::string> content = readFile(file);
+  if (!content)
     throw LoadError(file, "", "cannot be read");
-  bytes_ = content.str();
+  bytes_ = std::move(*content);
   const std::size_t end = bytes_.rfind("PK\5\6");
   if (end == std::string::npos)
     throw LoadError(file, "", "is no ZIP archive");

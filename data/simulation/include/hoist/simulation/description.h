@@ -3,7 +3,9 @@
 #include <hoist/simulation/scene.h>
 #include <hoist/simulation/things.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,14 @@ struct Range {
   draw(Random& random) const
   {
     return random.uniform(low, high);
+  }
+
+  /** \brief A whole number from low to high, each as likely; both are whole. */
+  int
+  drawWhole(Random& random) const
+  {
+    const auto number = static_cast<int>(std::floor(random.uniform(low, high + 1)));
+    return std::min(number, static_cast<int>(high)); // rounding may reach high + 1
   }
 };
 
@@ -97,6 +107,12 @@ Description parseDescription(const std::string& text, const std::string& file);
 /** \brief The same from a file.
  *  \throws LoadError */
 Description loadDescription(const std::string& file);
+
+/** \brief The name of frame \a number, e.g. "yard-000017"; makes no scene. */
+std::string frameName(const Description& description, int number);
+
+/** \brief Scene::seed of frame \a number, which its truth names. */
+std::uint64_t frameSeed(std::uint64_t seed, int number);
 
 /** \brief The scene of frame \a number. For sites of several visits consecutive numbers
  *  are the frames of the visits of one site after the other.

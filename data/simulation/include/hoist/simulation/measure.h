@@ -13,7 +13,8 @@ namespace simulation {
  *
  * kinect: Nguyen, Izadi, Lovell, "Modeling Kinect Sensor Noise", 3DIMPVT 2012:
  * 0.0012 + 0.0019 (z - 0.4)^2 + (0.0001 / sqrt z) (t / (pi/2 - t))^2; tof: constant +
- * quadratic z^2. Times sensor.noise; 0 for the other kinds.
+ * quadratic z^2, before what dark and slanted surfaces add. Times sensor.noise; 0 for
+ * the other kinds.
  * \param z [m] \param cosine of the angle t between ray and normal
  */
 double sigmaZ(const Sensor& sensor, double z, double cosine);

@@ -15,7 +15,18 @@ namespace simulation {
 struct LoadedMesh {
   Mesh mesh; ///< in the file's own axes and units
   std::vector<Material> materials;
+  /// What each material is made of: metal, wood, fabric, plastic; "" where its name
+  /// does not say.
+  std::vector<std::string> substances;
 };
+
+/** \brief What a material is made of by its name in a file, e.g. "Chrome": "metal",
+ *  "wood", "fabric", "plastic"; "" if that does not say. */
+std::string substanceNamed(const std::string& material);
+
+/** \brief What most of the surface is made of; "" if the names of the materials do not
+ *  say. */
+std::string substanceOfMost(const LoadedMesh& shape);
 
 /** \brief Gives the bytes of a file that a mesh names, e.g. its materials; nothing if
  *  there is none. */

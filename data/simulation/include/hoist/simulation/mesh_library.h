@@ -19,7 +19,7 @@ struct LibraryMesh {
   std::string model;    ///< path of the mesh in it
   Eigen::Vector3d size; ///< depth, width, height [m], of the real thing
   Eigen::Matrix3d turn; ///< the mesh's axes to the catalogue's (x right, y up, z front)
-  std::string substance; ///< of most of it
+  std::string substance; ///< of such a thing, if its materials' names say none
   bool test;             ///< kept for testing
 };
 
@@ -31,7 +31,7 @@ struct LibraryMesh {
 const std::vector<LibraryMesh>& meshLibrary();
 
 /** \brief Reads a shape (once a process): x forward, z up, the size of the real thing.
- *  \throws LoadError */
+ *  \throws LoadError as loadMesh(), and if its archive is damaged */
 std::shared_ptr<const LoadedMesh> libraryShape(const LibraryMesh& entry);
 
 } // namespace simulation

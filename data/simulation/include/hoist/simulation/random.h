@@ -53,6 +53,8 @@ hashNormal(std::uint64_t seed, std::int64_t a, std::int64_t b = 0)
   return static_cast<double>(sum) / 65535.0 - 6.0;
 }
 
+constexpr double degree = 1.0 / 360; ///< [turns]
+
 /** \brief Sine of an angle in turns (1 is the full circle), to 1e-9.
  *
  * The C library's differs in the last bit from one processor to the next; a scene must
@@ -112,16 +114,6 @@ public:
   pick(const std::vector<T>& list)
   {
     return list[static_cast<std::size_t>(index(static_cast<int>(list.size())))];
-  }
-
-  /** \brief Nearly normal, mean 0, variance 1. */
-  double
-  normal()
-  {
-    double sum = -6.0;
-    for (int i = 0; i < 12; ++i)
-      sum += uniform();
-    return sum;
   }
 
 private:

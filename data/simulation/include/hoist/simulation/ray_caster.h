@@ -57,7 +57,8 @@ public:
                 const double* fars,
                 bool* blocked) const;
 
-  /** \brief Whether the ray would meet the thing if nothing else were there. */
+  /** \brief Whether the ray would meet the thing if nothing else were there; false for
+   *  what is not annotated, of which nobody asks. */
   bool meets(int thing,
              const Eigen::Vector3d& origin,
              const Eigen::Vector3d& direction) const;

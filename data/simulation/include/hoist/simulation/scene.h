@@ -19,7 +19,7 @@ namespace simulation {
 
 /** \brief A thing in the world. World: z up, metres. */
 struct Thing {
-  std::string kind;       ///< "slab", "cone", "ground", ...; see thing_kinds.h
+  std::string kind;       ///< of thingKinds(), or "ground", "wall", "table"
   std::string name;       ///< unique in its site; stays the same from visit to visit
   bool annotated = false; ///< part of the truth; else clutter
   int label = 0;          ///< 1 ... 65535 of annotated things, unique in a site
@@ -73,7 +73,8 @@ struct Lamp {
   Eigen::Vector3f power = Eigen::Vector3f::Ones(); ///< irradiance at 1 m, by channel
 };
 
-/** \brief Where light comes from. Irradiances are relative: exposure sets the scale. */
+/** \brief Where light comes from. Irradiances are relative, 1 that of a clear sky on
+ *  a level surface: exposure sets the scale. */
 struct Light {
   Eigen::Vector3d sun = Eigen::Vector3d::UnitZ();      ///< unit, towards it
   Eigen::Vector3f sun_power = Eigen::Vector3f::Zero(); ///< on a surface facing it

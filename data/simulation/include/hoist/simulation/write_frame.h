@@ -18,6 +18,10 @@ enum class FrameFormat {
   compact ///< NAME.jpg and NAME.depth.png (16 bits, 0.25 mm a unit)
 };
 
+/** \brief The files that writeFrame() makes, the truth last. */
+std::vector<std::filesystem::path> frameFiles(const std::filesystem::path& stem,
+                                              const std::vector<FrameFormat>& formats);
+
 /** \brief Writes a frame; names start with \a stem. The truth comes last, so that a
  * frame with a truth is complete. \return the bytes written \throws pcl::IOException if
  * a file cannot be written */
