@@ -62,10 +62,68 @@ addCommon(CLI::App& command, RecognizeSettings& s)
   command.add_flag("-q,--quiet", s.quiet, "No progress")->configurable(false);
 }
 
+constexpr const char* what_to_look_for = "What to look for";
+
+void
+addSizes(CLI::App& command, FullModeParameters& p)
+{
+  const auto addRange = [&](const std::string& name, SideRange& range) {
+    const std::string option = "--" + name;
+    command
+        .add_option_function<std::string>(
+            option,
+            [option, &range](const std::string& text) {
+              const std::string meaning =
+                  "MIN,MAX: two lengths in metres, 0 <= MIN <= MAX, e.g. 0.2,0.45";
+              const auto n = parseNumbers(option, text, 2, meaning);
+              if (n[0] < 0 || n[1] < n[0])
+                throw CLI::ValidationError(option, "'" + text + "' is not " + meaning);
+              range = {n[0], n[1]};
+            },
+            "What the " + name + " side may measure [m]")
+        ->type_name("MIN,MAX")
+        ->group(what_to_look_for);
+  };
+  addRange("longest", p.ranges[0]);
+  addRange("middle", p.ranges[1]);
+  addRange("shortest", p.ranges[2]);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--known-size",
+          [&p](const std::vector<std::string>& texts) {
+            p.known.clear();
+            for (const std::string& text : texts) {
+              const std::string meaning =
+                  "three lengths in metres, each > 0, e.g. 0.4,0.3,0.2";
+              const auto n = parseNumbers("--known-size", text, 3, meaning, true);
+              for (std::size_t i = 0; i < n.size(); i += 3) {
+                p.known.emplace_back(n[i], n[i + 1], n[i + 2]);
+                if (p.known.back().minCoeff() <= 0)
+                  throw CLI::ValidationError("--known-size",
+                                             "'" + text + "' is not " + meaning);
+              }
+            }
+          },
+          "Only boxes of this size, whose hidden sides are then known; may be given "
+          "more than once")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("L,W,H")
+      ->group(what_to_look_for);
+  command
+      .add_option("--known-tolerance",
+                  p.tolerance,
+                  "How far a side may be from the known one [m]")
+      ->check(numberIn(1e-4, 10))
+      ->type_name("M")
+      ->capture_default_str()
+      ->group(what_to_look_for);
+}
+
 void
 addMethod(CLI::App& command, RecognizeSettings& s)
 {
-  const char* const group = "What to look for";
+  const char* const group = what_to_look_for;
   command
       .add_option("--mode",
                   s.mode,
@@ -100,6 +158,26 @@ addMethod(CLI::App& command, RecognizeSettings& s)
       ->check(numberIn(0.001, 1000))
       ->type_name("M")
       ->capture_default_str()
+      ->group(group);
+  addSizes(command, s.full);
+  command
+      .add_flag("--single-faces",
+                s.full.single_faces,
+                "Also boxes of which one face alone is seen; any flat rectangle is one")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--support-plane",
+          [&s](const std::string& text) {
+            const auto n = parseNumbers(
+                "--support-plane", text, 4, "four numbers a,b,c,d, e.g. 0,-1,0,1.6");
+            s.full.support_plane = Eigen::Vector4d(n[0], n[1], n[2], n[3]);
+            if (s.full.support_plane->head<3>().norm() == 0)
+              throw CLI::ValidationError(
+                  "--support-plane", "'" + text + "' has no normal: a, b and c are 0");
+          },
+          "What the boxes stand on: a x + b y + c z + d = 0 in the camera frame [m]")
+      ->type_name("A,B,C,D")
       ->group(group);
   command.add_option("--min-score", s.full.min_score, "Lowest score of a cuboid")
       ->check(numberIn(0, 1))

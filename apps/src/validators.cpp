@@ -121,6 +121,24 @@ parseRegion(const std::string& text)
           static_cast<int>(n[3])};
 }
 
+std::vector<double>
+parseNumbers(const std::string& option,
+             const std::string& text,
+             std::size_t count,
+             const std::string& meaning,
+             bool groups)
+{
+  std::vector<double> numbers;
+  bool good = true;
+  for (const std::string& part : split(text, ',')) {
+    numbers.push_back(0);
+    good = good && parseNumber(part, numbers.back());
+  }
+  if (!good || (groups ? numbers.size() % count != 0 : numbers.size() != count))
+    throw CLI::ValidationError(option, "'" + text + "' is not " + meaning);
+  return numbers;
+}
+
 cv::Point
 parsePixel(const std::string& text)
 {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace hoist {
 
@@ -23,6 +24,17 @@ SensorModel parseSensor(const std::string& text);
 /** \brief "u,v,w,h" in pixels: column and row of the top left corner, width, height.
  *  \throws CLI::ValidationError */
 cv::Rect parseRegion(const std::string& text);
+
+/** \brief Finite numbers separated by commas.
+ *  \param option that they are for, e.g. "--support-plane"
+ *  \param count how many, or how many to a group: then as many groups as there are
+ *  \param meaning what is expected, for the message, e.g. "a,b,c,d"
+ *  \throws CLI::ValidationError */
+std::vector<double> parseNumbers(const std::string& option,
+                                 const std::string& text,
+                                 std::size_t count,
+                                 const std::string& meaning,
+                                 bool groups = false);
 
 /** \brief "u,v": column and row of a pixel.
  *  \throws CLI::ValidationError */

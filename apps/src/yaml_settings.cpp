@@ -52,6 +52,19 @@ public:
   }
 
 private:
+  // [a, b] and [[a, b], [c, d]] alike, separated by commas.
+  void
+  appendItems(const std::string& key, const YAML::Node& list, std::string& text) const
+  {
+    for (const auto& item : list)
+      if (item.IsSequence())
+        appendItems(key, item, text);
+      else if (item.IsScalar())
+        text += (text.empty() ? "" : ",") + item.Scalar();
+      else
+        fail(item, "'" + key + "' takes plain values");
+  }
+
   void
   applyValue(const std::string& key, const YAML::Node& name, const YAML::Node& value)
   {
@@ -64,11 +77,7 @@ private:
     if (value.IsScalar())
       text = value.Scalar();
     else if (value.IsSequence())
-      for (const auto& item : value) {
-        if (!item.IsScalar())
-          fail(item, "'" + key + "' takes plain values");
-        text += (text.empty() ? "" : ",") + item.Scalar();
-      }
+      appendItems(key, value, text);
     else
       fail(name, "'" + key + "' has no value");
 

@@ -117,6 +117,10 @@ CuboidJudge::glance(CuboidCandidate& c) const
     c.rejected = "an end is hidden";
     return;
   }
+  // refinement moves an end by a few pixels at most
+  c.rejected = sizeRejection(c.hypothesis, parameters_, reach(c.hypothesis, 3));
+  if (c.rejected)
+    return;
   const double distance = reach(c.hypothesis, 1);
   const auto same = [&](const CuboidHypothesis& h) {
     return alike(h, c.hypothesis, distance);
@@ -158,8 +162,8 @@ CuboidJudge::judgeClosely(CuboidCandidate& c) const
   constexpr double max_roundness = 1.1;
   if (c.evidence.score < parameters_.min_score)
     c.rejected = "score below the minimum";
-  else if (c.hypothesis.size().minCoeff() < parameters_.min_side)
-    c.rejected = "side length outside the limits";
+  else if (const char* reason = sizeRejection(c.hypothesis, parameters_, 0))
+    c.rejected = reason;
   else if (cuboidRoundness(
                c.hypothesis, images_.inverse_depth, images_.intrinsics, sensor_) >
            max_roundness)
@@ -179,6 +183,8 @@ CuboidJudge::judgeFully(CuboidCandidate& c) const
   verify(c, std::numeric_limits<int>::max());
   if (c.evidence.score < parameters_.min_score)
     c.rejected = "score below the minimum";
+  else
+    c.rejected = sizeRejection(c.hypothesis, parameters_, 0);
 }
 
 } // namespace detail

@@ -259,9 +259,10 @@ refineCuboid(CuboidHypothesis& hypothesis,
       double prior = 1.0; // [m]
       if (h.ends[f] == EndSource::support)
         prior = noise;
-      else if (h.ends[f] == EndSource::bracketed) // even over the interval
+      else if (h.ends[f] == EndSource::bracketed ||
+               h.ends[f] == EndSource::catalogue) // even over the interval
         prior = h.room[f] / std::sqrt(12.0);
-      else if (h.ends[f] != EndSource::bound)
+      else if (h.ends[f] != EndSource::bound && h.ends[f] != EndSource::unknown)
         prior = 4 * pixel + noise;
       normal(3 + f, 3 + f) += 1 / (prior * prior);
       gradient[3 + f] += (ends[3 + f] - start[3 + f]) / (prior * prior);
@@ -289,6 +290,9 @@ refineCuboid(CuboidHypothesis& hypothesis,
   for (int f = 0; f < 6; ++f)
     h.end(f) = ends[3 + f] + axes.col(f / 2).dot(origin);
   detail::settleBetweenPixels(outline, camera, pixel, h);
+  for (int f = 0; f < 6; ++f) // a given length is measured from the other end
+    if (h.ends[f] == EndSource::catalogue || h.ends[f] == EndSource::unknown)
+      h.end(f) = h.end(f ^ 1) + CuboidHypothesis::side(f) * h.given[f / 2];
   if ((h.size().array() <= 0).any() ||
       (h.center() - origin).norm() > 0.5 * h.size().norm())
     return false;

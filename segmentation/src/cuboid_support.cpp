@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace hoist {
@@ -55,6 +56,40 @@ middleOf(const CuboidHypothesis& h, int f)
   return h.axes * local;
 }
 
+// How far from a point on a box's end, along the outward normal, a plane lies that is
+// parallel to the end; infinity if it is not [m].
+double
+distanceTo(const Eigen::Vector4d& plane,
+           const Eigen::Vector3d& end,
+           const Eigen::Vector3d& outward)
+{
+  const double slope = plane.head<3>().dot(outward);
+  constexpr double min_cosine = 0.98;
+  if (std::abs(slope) < min_cosine * plane.head<3>().norm())
+    return std::numeric_limits<double>::infinity();
+  return -(plane.head<3>().dot(end) + plane[3]) / slope;
+}
+
+// The foot of a box that reaches through the plane is put onto it.
+void
+endAtPlane(const Eigen::Vector4d& plane, const SensorModel& sensor, CuboidHypothesis& h)
+{
+  // the side of the plane where the camera is
+  const Eigen::Vector3d up = plane[3] < 0 ? Eigen::Vector3d(-plane.head<3>())
+                                          : Eigen::Vector3d(plane.head<3>());
+  for (int f = 0; f < 6; ++f) {
+    if (up.dot(h.outward(f)) >= 0)
+      continue;
+    const Eigen::Vector3d end = middleOf(h, f);
+    const double distance = distanceTo(plane, end, h.outward(f));
+    const double most = h.size()[f / 2]; // a box all below it is left alone
+    if (distance < -2 * sensor.sigmaZ(end.z()) && distance > -most) {
+      h.end(f) += CuboidHypothesis::side(f) * distance;
+      h.ends[f] = EndSource::support;
+    }
+  }
+}
+
 } // namespace
 
 void
@@ -84,11 +119,15 @@ extendToSupport(const std::vector<PlanarFace>& faces,
           extentOf(k).contains(middleOf(h, f), margin_share * h.size().maxCoeff()))
         h.ends[f] = EndSource::seen;
     }
+  if (parameters.support_plane)
+    for (CuboidHypothesis& h : hypotheses)
+      endAtPlane(*parameters.support_plane, parameters.sensor, h);
   const std::size_t n = hypotheses.size();
   for (std::size_t i = 0; i < n; ++i)
     for (int f = 0; f < 6; ++f) {
       const EndSource known = hypotheses[i].ends[f];
-      if (known != EndSource::bound && known != EndSource::contact)
+      if (known != EndSource::bound && known != EndSource::contact &&
+          known != EndSource::unknown)
         continue;
       const CuboidHypothesis h = hypotheses[i];
       const Eigen::Vector3d outward = h.outward(f), end = middleOf(h, f);
@@ -107,11 +146,17 @@ extendToSupport(const std::vector<PlanarFace>& faces,
         if (extentOf(k).contains(end + distance * outward, margin))
           nearest = distance;
       }
+      if (parameters.support_plane) {
+        const double distance = distanceTo(*parameters.support_plane, end, outward);
+        if (distance >= 2 * sigma && distance < nearest)
+          nearest = distance;
+      }
       if (nearest >= reach)
         continue;
       CuboidHypothesis longer = h;
       longer.end(f) += CuboidHypothesis::side(f) * nearest;
       longer.ends[f] = EndSource::support;
+      longer.given[f / 2] = 0;
       if (longer.size().maxCoeff() <= parameters.max_side)
         hypotheses.push_back(longer);
     }

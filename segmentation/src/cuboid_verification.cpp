@@ -16,9 +16,12 @@ trust(EndSource end)
     return 1.0;
   case EndSource::support:
   case EndSource::bracketed:
+  case EndSource::catalogue:
     return 0.95;
   case EndSource::contact:
     return 0.92;
+  case EndSource::unknown: // told so, and less than any other answer
+    return 0.9;
   case EndSource::bound:
     break;
   }
@@ -121,7 +124,7 @@ verifyCuboid(const CuboidHypothesis& h,
   double product = std::pow(evidence.flat, 3) * evidence.outline * (1 - excess);
   evidence.trust = trustInEnds(h);
   product *= evidence.trust;
-  if (observed < 2)
+  if (observed < 2 && h.model != CuboidModel::face)
     product *= 0.5; // one face: the third dimension is a guess
   evidence.score = calibrated(product);
 }

@@ -59,6 +59,14 @@ struct FullMode::Workspace {
   }
 };
 
+bool
+FullModeParameters::valid() const
+{
+  return BoxSizes::valid() && min_score >= 0 && min_score <= 1 && max_cuboids >= 0 &&
+         (!support_plane ||
+          (support_plane->allFinite() && support_plane->head<3>().norm() > 0));
+}
+
 FullMode::FullMode() : workspace_(std::make_unique<Workspace>()) {}
 FullMode::~FullMode() = default;
 FullMode::FullMode(FullMode&&) noexcept = default;
@@ -141,10 +149,14 @@ FullMode::makeHypotheses(const FrameImages& images,
   limits.sensor = w.sensor;
   limits.min_side = parameters.min_side;
   limits.max_side = parameters.max_side;
+  limits.support_plane = parameters.support_plane;
   w.hypotheses.clear();
   cuboidsFromFacePairs(w.faces, w.borders, w.camera, limits, w.hypotheses, diagnostics);
   bracketEnds(images.inverse_depth, w.camera, limits, w.hypotheses);
+  if (parameters.single_faces)
+    cuboidsFromSingleFaces(w.faces, w.borders, w.camera, limits, w.hypotheses);
   extendToSupport(w.faces, w.borders, limits, w.hypotheses);
+  completeFromCatalogue(parameters, w.camera, w.sensor, w.hypotheses);
   diagnostics.counts.add("hypotheses", w.hypotheses.size());
 }
 

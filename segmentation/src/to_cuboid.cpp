@@ -24,10 +24,16 @@ toCuboid(const CuboidCandidate& candidate)
     const EndSource a = h.ends[2 * i], b = h.ends[2 * i + 1];
     c.dimension_source[i] = DimensionSource::measured;
     const auto either = [a, b](EndSource end) { return a == end || b == end; };
-    if (either(EndSource::bound) || either(EndSource::contact)) {
+    if (either(EndSource::unknown)) {
+      c.dimension_source[i] = DimensionSource::unknown;
+      c.size_sigma[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    else if (either(EndSource::bound) || either(EndSource::contact)) {
       c.dimension_source[i] = DimensionSource::partial;
       c.size_sigma[i] = std::numeric_limits<double>::quiet_NaN();
     }
+    else if (either(EndSource::catalogue))
+      c.dimension_source[i] = DimensionSource::catalogue;
     else if (either(EndSource::support))
       c.dimension_source[i] = DimensionSource::support;
     else if (either(EndSource::bracketed))

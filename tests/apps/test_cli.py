@@ -153,6 +153,10 @@ class Usage(CommandLine):
             "--min-score": ("1.01", "-0.01", "nan"),
             "--max-cuboids": ("-1", "1.5", "x", "99999999999999999999"),
             "--mode": ("Paper", "fast", ""),
+            "--longest": ("0.3", "0.3,0.2", "-0.1,1", "a,b", "0.1,nan", "0.1,0.2,0.3"),
+            "--known-size": ("0.3", "0.3,0.2", "0.3,0.2,0", "0.3,0.2,x", "1,2,3,4"),
+            "--known-tolerance": ("0", "-0.01", "x"),
+            "--support-plane": ("0,0,0,1", "0,1,0", "0,1,0,x", "1"),
             "--sensor": ("kinekt", "stereo", "stereo:", "stereo:0", "stereo:-5",
                          "stereo:50,x", "stereo:50,1,1", "constant", "constant:nan",
                          "kinect:1"),
@@ -410,6 +414,48 @@ class Recognize(CommandLine):
             self.assertGreaterEqual(min(cuboid["size"]), 0.18)
         for cuboid in self.recognize(frame, "--max-side", "0.3")["cuboids"]:
             self.assertLessEqual(max(cuboid["size"]), 0.3)
+
+    def test_sizes_that_are_known(self):
+        frame = self.sample("scenes/stacked.pcd")
+        everything = self.recognize(frame)["cuboids"]
+        for wanted in everything:
+            size = sorted(wanted["size"], reverse=True)
+            known = ",".join(f"{side:.4f}" for side in size)
+            longest = f"{size[0] - 0.005:.4f},{size[0] + 0.005:.4f}"
+            for options in (["--known-size", known], ["--longest", longest]):
+                with self.subTest(options=options):
+                    some = self.recognize(frame, *options)["cuboids"]
+                    centers = [cuboid["center"] for cuboid in some]
+                    self.assertLess(min(math.dist(wanted["center"], center)
+                                        for center in centers), 0.005)
+                    for cuboid in some:
+                        self.assertLess(abs(max(cuboid["size"]) - size[0]), 0.0101)
+        self.assertEqual(self.recognize(frame, "--known-size", "3,2,1")["cuboids"], [])
+        # two sizes, in any way that they can be written
+        two = [sorted(cuboid["size"]) for cuboid in everything[:2]]
+        typed = [f"--known-size={','.join(map(str, size))}" for size in two]
+        expected = self.recognize(frame, *typed)["cuboids"]
+        self.assertGreaterEqual(len(expected), 2)
+        settings = self.folder / "sizes.yaml"
+        flat = [side for size in two for side in size]
+        for text in (f"known_size: {two}", f"known-size: {flat}",
+                     f"known: {{size: {two}}}"):
+            with self.subTest(text=text):
+                settings.write_text(text + "\n")
+                found = self.recognize(frame, "--config", settings)["cuboids"]
+                self.assertEqual(found, expected)
+
+    def test_single_faces(self):
+        # of the table's top and the boxes' sides nothing is said that is not asked for
+        frame = self.sample("scenes/stacked.pcd")
+        models = {cuboid["model"] for cuboid in self.recognize(frame)["cuboids"]}
+        self.assertNotIn("face", models)
+        some = self.recognize(frame, "--single-faces")["cuboids"]
+        for cuboid in some:
+            if cuboid["model"] == "face":
+                self.assertEqual(sum(cuboid["observed_faces"].values())
+                                 if isinstance(cuboid["observed_faces"], dict)
+                                 else sum(map(bool, cuboid["observed_faces"])), 1)
 
     def test_material_gives_a_weight(self):
         frame = self.sample("scenes/crate.pcd")

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace hoist {
@@ -20,7 +21,9 @@ enum class EndSource : unsigned char {
              ///< behind that
   bracketed, ///< covered, but known to lie in an interval of 15 % of the side and a few
              ///< pixels at most: farther out the background is seen
-  support    ///< covered; taken from the surface it stands on or leans against
+  support,   ///< covered; taken from the surface it stands on or leans against
+  catalogue, ///< as far from the other end as a known box is long
+  unknown    ///< behind the only face that is seen, by a length that means nothing
 };
 
 /** \brief A box that may be there. Camera frame, metres.
@@ -35,8 +38,11 @@ struct CuboidHypothesis {
   std::array<EndSource, 6> ends{};
   /// Faces that touch the box from in front at its ends, -1 where none.
   std::array<int, 6> contacts{-1, -1, -1, -1, -1, -1};
-  /// Length of the interval in which a bracketed end lies [m], 0 at other ends.
+  /// Length of the interval in which an end lies that is bracketed or of a catalogue
+  /// [m], 0 at other ends.
   std::array<double, 6> room{};
+  /// Lengths of sides that do not come from the frame [m], 0 for those that do.
+  std::array<double, 3> given{};
   std::array<int, 2> faces{-1, -1}; ///< the faces it was built from
   CuboidModel model = CuboidModel::faces;
 
@@ -84,6 +90,9 @@ struct CuboidHypothesisParameters {
   /// uncertainty, are no pair [rad]. Kinects whose principal point is off show true
   /// right angles at 88 to 92 degrees.
   double angle_tolerance = 0.12;
+  /// What everything stands on, if it is known: a x + b y + c z + d = 0 in the camera
+  /// frame [m], (a, b, c) of any length but 0.
+  std::optional<Eigen::Vector4d> support_plane;
 };
 
 /** \brief Boxes from pairs of perpendicular faces that meet convexly.
@@ -101,12 +110,27 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
                      std::vector<CuboidHypothesis>& hypotheses,
                      Diagnostics& diagnostics);
 
+/** \brief Boxes of which one face alone is seen.
+ *
+ * For each face that ends along a rectangle. How far the box reaches behind it is not
+ * known: that end is EndSource::unknown, put a pixel's footprint behind the face.
+ *
+ * \param hypotheses appended to
+ */
+HOIST_SEGMENTATION_EXPORT void
+cuboidsFromSingleFaces(const std::vector<PlanarFace>& faces,
+                       const FaceBorders& borders,
+                       const Intrinsics& camera,
+                       const CuboidHypothesisParameters& parameters,
+                       std::vector<CuboidHypothesis>& hypotheses);
+
 /** \brief Settles what touches the boxes, and adds those that reach on to a surface.
  *
  * A contact that lies under the box, seen from its end, carries it: the end becomes
  * EndSource::seen. Then, for each end that is still covered or touched, a box is added
- * that reaches on to the nearest face that is parallel to the end and beyond it;
- * nothing seen contradicts it, and its end is marked EndSource::support.
+ * that reaches on to the nearest face that is parallel to the end and beyond it, or to
+ * the support plane if one is given; nothing seen contradicts it, and its end is marked
+ * EndSource::support. What reaches through the given plane ends there.
  *
  * \param hypotheses changed and appended to
  */

@@ -83,12 +83,9 @@ public:
     return paper_parameters_;
   }
 
-  /** \brief The numbers of the full mode; units and ranges are told there. */
-  void
-  setFullParameters(const FullModeParameters& parameters)
-  {
-    full_parameters_ = parameters;
-  }
+  /** \brief The numbers of the full mode; units and ranges are told there.
+   *  \throw pcl::BadArgumentException if one is out of range */
+  void setFullParameters(const FullModeParameters& parameters);
 
   const FullModeParameters&
   getFullParameters() const

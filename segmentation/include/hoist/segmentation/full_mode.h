@@ -4,25 +4,36 @@
 #include <hoist/data/frame_images.h>
 #include <hoist/data/result.h>
 #include <hoist/data/sensor_model.h>
+#include <hoist/segmentation/box_sizes.h>
 #include <hoist/segmentation/export.h>
 #include <hoist/segmentation/planar_faces.h>
 
 #include <opencv2/core.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hoist {
 
-/** \brief What a user may ask of the full mode. Lengths in metres. */
-struct FullModeParameters {
+/** \brief What a user may ask of the full mode, beside the sizes. Lengths in metres. */
+struct FullModeParameters : BoxSizes {
   SensorModel sensor; ///< every distance threshold follows its sigmaZ
 
-  double min_side = 0.015; ///< shortest side of a reported cuboid [m], > 0
-  double max_side = 5.0;   ///< longest side [m], >= min_side
-  double min_score = 0.5;  ///< cuboids below are not reported, in [0, 1]
-  int max_cuboids = 0;     ///< keep the best n; 0 = all
+  double min_score = 0.5; ///< cuboids below are not reported, in [0, 1]
+  int max_cuboids = 0;    ///< keep the best n; 0 = all
+
+  /// Also report boxes of which one face alone is seen, CuboidModel::face. Where no
+  /// surface carries them and no catalogue knows them, their third side is
+  /// DimensionSource::unknown. Every flat rectangle is one, such as a table's top.
+  bool single_faces = false;
+
+  /// What the boxes stand on, if it is known: a x + b y + c z + d = 0 in the camera
+  /// frame [m], (a, b, c) of any length but 0. Hidden ends reach down to it.
+  std::optional<Eigen::Vector4d> support_plane;
+
+  HOIST_SEGMENTATION_EXPORT bool valid() const;
 };
 
 /** \brief A box that was thought of, and what became of it. */
@@ -57,6 +68,7 @@ public:
    *  \param mask pixels to use (non-zero), height x width, or empty for all
    *  \param cuboids cleared, then filled, best score first
    *  \param diagnostics counts and reject reasons are added
+   *  \param parameters valid()
    *  \return false if the frame has no valid intrinsics; outputs are then empty */
   bool segment(const FrameImages& images,
                const cv::Mat1b& mask,

@@ -23,6 +23,17 @@ CuboidSegmentation<PointT>::setPaperParameters(const PaperModeParameters& parame
 
 template <typename PointT>
 void
+CuboidSegmentation<PointT>::setFullParameters(const FullModeParameters& parameters)
+{
+  if (!parameters.valid())
+    PCL_THROW_EXCEPTION(pcl::BadArgumentException,
+                        "hoist::CuboidSegmentation: a parameter of the full mode is "
+                        "out of range");
+  full_parameters_ = parameters;
+}
+
+template <typename PointT>
+void
 CuboidSegmentation<PointT>::setLineDistance(double distance)
 {
   if (!(distance >= 0) || !std::isfinite(distance))
