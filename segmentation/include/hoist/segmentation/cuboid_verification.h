@@ -90,8 +90,8 @@ struct CuboidEvidence {
 };
 
 /** \brief How well the ends of a box are known, in [0, 1]: the product of 1 for each
- *  seen, 0.95 for each supported, bracketed or catalogue's, 0.92 for each touched, 0.9 for
- *  each unknown and 0.6 for each hidden one. */
+ *  seen, 0.95 for each supported, bracketed or catalogue's, 0.92 for each touched, 0.9
+ * for each unknown and 0.6 for each hidden one. */
 HOIST_SEGMENTATION_EXPORT double trustInEnds(const CuboidHypothesis& hypothesis);
 
 /** \brief The score of a box of which the frame says nothing but good, in [0, 1].
