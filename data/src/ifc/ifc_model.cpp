@@ -1,0 +1,466 @@
+#include <hoist/data/ifc/ifc_model.h>
+
+#include "ifc_access.h"
+#include "ifc_geometry.h"
+#include "ifc_units.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace hoist {
+namespace {
+
+using ifc::Entity;
+
+/// A relation and which of its arguments say what is related.
+struct Relation {
+  const char* name;
+  std::size_t objects;  ///< list of what it is said of
+  std::size_t relating; ///< what is said
+};
+
+constexpr Relation relations[] = {{"IFCRELDEFINESBYPROPERTIES", 4, 5},
+                                  {"IFCRELDEFINESBYTYPE", 4, 5},
+                                  {"IFCRELASSOCIATESMATERIAL", 4, 5},
+                                  {"IFCRELCONTAINEDINSPATIALSTRUCTURE", 4, 5},
+                                  {"IFCRELAGGREGATES", 5, 4}};
+
+IfcSchema
+schemaOf(const Part21File& file)
+{
+  for (const Part21Record& line : file.header()) {
+    if (line.name != "FILE_SCHEMA")
+      continue;
+    std::string word;
+    if (!line.arguments.empty() && line.arguments[0].items.size() == 1)
+      word = line.arguments[0].items[0].text();
+    if (word.rfind("IFC2X3", 0) == 0)
+      return IfcSchema::ifc2x3;
+    if (word == "IFC4" || word.rfind("IFC4_", 0) == 0)
+      return IfcSchema::ifc4;
+    const auto offset =
+        static_cast<std::size_t>(line.name.data() - file.bytes().data());
+    file.fail(offset, "expected the schema IFC2X3 or IFC4, found \"" + word + '"');
+  }
+  throw LoadError(
+      file.name(), "", "expected a line FILE_SCHEMA in the header, found none");
+}
+
+} // namespace
+
+struct IfcModel::Parts {
+  explicit Parts(Part21File part21) : file(std::move(part21)) {}
+
+  void readRelations();
+  void readPlacement(std::uint64_t first);
+  void readPlacements();
+  void readSpatial();
+  void readElements();
+  void setWeight(IfcElement& element);
+  std::string materialOf(std::uint64_t id) const;
+  std::vector<IfcPropertySet> sets(std::uint64_t id) const;
+  std::uint64_t relatingOf(std::string_view relation, std::uint64_t id) const;
+  Eigen::Isometry3d inMetres(std::uint64_t placement) const;
+
+  Part21File file;
+  IfcSchema schema = IfcSchema::ifc4;
+  ifc::Units units;
+  std::vector<std::uint32_t> references;
+  std::vector<IfcSpatialNode> spatial;
+  std::unordered_map<std::uint64_t, int> spatial_by_id;
+  std::vector<IfcElement> elements;
+  std::unordered_map<std::string, std::size_t> by_global_id;
+  std::unordered_map<std::uint64_t, Eigen::Isometry3d> placements;
+  /// Of every relation: instance of the model -> numbers of the relations of it.
+  std::map<std::string, std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>>
+      related;
+};
+
+void
+IfcModel::Parts::readRelations()
+{
+  for (const Relation& relation : relations) {
+    auto& of = related[relation.name];
+    for (const std::uint32_t number : file.ofType(relation.name)) {
+      const Entity entity(file, file.instances()[number].id);
+      for (const std::uint64_t id : entity.references(relation.objects))
+        of[id].push_back(number);
+    }
+  }
+}
+
+// What a relation relates the instance to; 0 for nothing.
+std::uint64_t
+IfcModel::Parts::relatingOf(std::string_view name, std::uint64_t id) const
+{
+  for (const Relation& relation : relations)
+    if (name == relation.name) {
+      const auto& of = related.at(relation.name);
+      const auto found = of.find(id);
+      if (found != of.end())
+        return Entity(file, file.instances()[found->second.front()].id)
+            .reference(relation.relating);
+    }
+  return 0;
+}
+
+// Of one IfcLocalPlacement and of those that it is relative to.
+void
+IfcModel::Parts::readPlacement(std::uint64_t first)
+{
+  std::vector<std::uint64_t> chain;
+  std::set<std::uint64_t> seen;
+  std::uint64_t id = first;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (;;) {
+    const auto known = placements.find(id);
+    if (known != placements.end()) {
+      pose = known->second;
+      break;
+    }
+    const Entity entity(file, id);
+    if (entity.name() != "IFCLOCALPLACEMENT")
+      break; // of a grid: taken as the world's frame
+    if (!seen.insert(id).second)
+      file.fail(entity.instance().begin,
+                "expected a placement that is not relative to itself: #" +
+                    std::to_string(id));
+    chain.push_back(id);
+    const auto next = entity.referenceIf(0);
+    if (!next)
+      break;
+    id = *next;
+  }
+  for (auto here = chain.rbegin(); here != chain.rend(); ++here) {
+    pose = pose * ifc::axisPlacement(Entity(file, *here).follow(1));
+    placements.emplace(*here, pose);
+  }
+}
+
+void
+IfcModel::Parts::readPlacements()
+{
+  for (const std::uint32_t number : file.ofType("IFCLOCALPLACEMENT"))
+    readPlacement(file.instances()[number].id);
+}
+
+Eigen::Isometry3d
+IfcModel::Parts::inMetres(std::uint64_t placement) const
+{
+  const auto found = placements.find(placement);
+  if (found == placements.end())
+    return Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d out = found->second;
+  out.translation() *= units.length;
+  return out;
+}
+
+void
+IfcModel::Parts::readSpatial()
+{
+  const auto add = [&](const Entity& entity) {
+    IfcSpatialNode node;
+    node.id = entity.id();
+    node.entity = std::string(entity.name());
+    node.global_id = entity.text(0);
+    node.name = entity.text(2);
+    if (entity.name() != "IFCPROJECT")
+      node.placement = entity.referenceIf(5).value_or(0);
+    node.pose = inMetres(node.placement);
+    spatial_by_id.emplace(node.id, static_cast<int>(spatial.size()));
+    spatial.push_back(std::move(node));
+  };
+  const auto& projects = file.ofType("IFCPROJECT");
+  if (projects.empty())
+    throw LoadError(file.name(), "", "expected an IFCPROJECT, found none");
+  const Entity project(file, file.instances()[projects.front()].id);
+  units = ifc::unitsOf(file, project);
+  add(project);
+  for (const char* const name :
+       {"IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE"})
+    for (const std::uint32_t number : file.ofType(name))
+      add(Entity(file, file.instances()[number].id));
+  for (IfcSpatialNode& node : spatial) {
+    const auto parent = spatial_by_id.find(relatingOf("IFCRELAGGREGATES", node.id));
+    if (parent != spatial_by_id.end())
+      node.parent = parent->second;
+  }
+  for (const IfcSpatialNode& node : spatial) {
+    std::size_t steps = 0;
+    for (int up = node.parent; up >= 0; up = spatial[up].parent)
+      if (++steps > spatial.size())
+        file.fail(file.find(node.id)->begin,
+                  "expected a spatial tree, found #" + std::to_string(node.id) +
+                      " inside of itself");
+  }
+}
+
+std::vector<IfcPropertySet>
+IfcModel::Parts::sets(std::uint64_t id) const
+{
+  std::vector<IfcPropertySet> out;
+  const auto add = [&](std::uint64_t set) {
+    if (auto one = ifc::readPropertySet(file, set, units))
+      out.push_back(std::move(*one));
+  };
+  const auto& of = related.at("IFCRELDEFINESBYPROPERTIES");
+  if (const auto found = of.find(id); found != of.end())
+    for (const std::uint32_t number : found->second) {
+      const Entity relation(file, file.instances()[number].id);
+      if (relation.at(5).is(Part21Value::Kind::reference))
+        add(relation.reference(5));
+    }
+  const std::uint64_t type = relatingOf("IFCRELDEFINESBYTYPE", id);
+  if (type != 0)
+    for (const std::uint64_t set : Entity(file, type).references(5))
+      add(set);
+  return out;
+}
+
+// The names of all materials that what is associated leads to: layers, lists and so on.
+std::string
+IfcModel::Parts::materialOf(std::uint64_t id) const
+{
+  std::uint64_t first = relatingOf("IFCRELASSOCIATESMATERIAL", id);
+  if (first == 0)
+    first =
+        relatingOf("IFCRELASSOCIATESMATERIAL", relatingOf("IFCRELDEFINESBYTYPE", id));
+  std::vector<std::string> names;
+  std::set<std::uint64_t> seen;
+  std::vector<std::uint64_t> open;
+  if (first != 0)
+    open.push_back(first);
+  while (!open.empty() && names.size() < 100) {
+    const std::uint64_t next = open.back();
+    open.pop_back();
+    const Part21Instance* const instance = file.find(next);
+    if (instance == nullptr || !seen.insert(next).second ||
+        file.entity(*instance).substr(0, 11) != "IFCMATERIAL")
+      continue;
+    const Entity entity(file, next);
+    if (entity.name() == "IFCMATERIAL") {
+      const std::string name = entity.text(0);
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+      continue;
+    }
+    std::vector<std::uint64_t> more;
+    for (const Part21Value& argument : entity.arguments()) {
+      if (argument.is(Part21Value::Kind::reference))
+        more.push_back(argument.id);
+      for (const Part21Value& item : argument.items)
+        if (item.is(Part21Value::Kind::reference))
+          more.push_back(item.id);
+    }
+    open.insert(open.end(), more.rbegin(), more.rend()); // in the file's order
+  }
+  std::string out;
+  for (const std::string& name : names)
+    out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+// The first of these that says something: gross before net, quantities before
+// properties.
+void
+IfcModel::Parts::setWeight(IfcElement& element)
+{
+  const std::vector<IfcPropertySet> all = sets(element.id);
+  for (const bool quantities : {true, false})
+    for (const char* const name : {"GrossWeight", "NetWeight", "Weight", "Mass"})
+      for (const IfcPropertySet& set : all) {
+        const IfcProperty* const property =
+            set.quantities == quantities ? set.find(name) : nullptr;
+        if (property == nullptr ||
+            (quantities && property->type != "IFCQUANTITYWEIGHT"))
+          continue;
+        std::optional<double> weight;
+        if (const auto* real = std::get_if<double>(&property->value))
+          weight = *real;
+        else if (const auto* whole = std::get_if<std::int64_t>(&property->value))
+          weight = static_cast<double>(*whole);
+        if (weight && *weight > 0) {
+          element.weight = weight;
+          element.weight_source = set.name + "." + name;
+          return;
+        }
+      }
+}
+
+void
+IfcModel::Parts::readElements()
+{
+  ifc::ShapeCache shapes;
+  std::vector<char> wanted;
+  for (const Part21Instance& instance : file.instances()) {
+    // the entity of a number is the same throughout: looked up once
+    if (instance.name >= wanted.size())
+      wanted.resize(instance.name + 1, 2);
+    if (wanted[instance.name] == 2)
+      wanted[instance.name] = ifc::isElement(file.entity(instance)) ? 1 : 0;
+    if (wanted[instance.name] == 0)
+      continue;
+    const Entity entity(file, instance.id);
+    IfcElement out;
+    out.id = instance.id;
+    out.entity = ifc::spelling(entity.name());
+    out.global_id = entity.text(0);
+    out.name = entity.text(2);
+    out.object_type = entity.text(4);
+    if (entity.at(7).is(Part21Value::Kind::text))
+      out.tag = entity.text(7);
+    // parts of an assembly are where the assembly is
+    std::uint64_t whole = instance.id;
+    std::uint64_t place = 0;
+    for (int depth = 0; whole != 0 && place == 0; ++depth) {
+      if (depth > 100)
+        file.fail(instance.begin,
+                  "expected an element that is no part of itself: #" +
+                      std::to_string(instance.id));
+      place = relatingOf("IFCRELCONTAINEDINSPATIALSTRUCTURE", whole);
+      whole = relatingOf("IFCRELAGGREGATES", whole);
+      if (place == 0 && spatial_by_id.count(whole) != 0)
+        place = whole;
+    }
+    if (const auto found = spatial_by_id.find(place); found != spatial_by_id.end())
+      out.container = found->second;
+    for (int up = out.container; up >= 0; up = spatial[up].parent)
+      if (spatial[up].entity == "IFCBUILDINGSTOREY") {
+        out.storey = spatial[up].name;
+        break;
+      }
+    out.material = materialOf(instance.id);
+    setWeight(out);
+
+    const auto shape = entity.referenceIf(6);
+    const auto placement = entity.referenceIf(5);
+    out.box_source = "no shape";
+    if (placement && placements.count(*placement) == 0)
+      out.box_source = "placed on a grid";
+    else if (shape)
+      out.box = ifc::shapeBox(file, *shape, shapes, out.box_source);
+    if (out.box) {
+      const Eigen::Isometry3d pose =
+          placement ? placements.at(*placement) : Eigen::Isometry3d::Identity();
+      out.box->center = pose * out.box->center * units.length;
+      out.box->axes = pose.linear() * out.box->axes;
+      out.box->size *= units.length;
+    }
+    by_global_id.emplace(out.global_id, elements.size());
+    elements.push_back(std::move(out));
+  }
+}
+
+const char*
+toString(IfcSchema schema)
+{
+  return schema == IfcSchema::ifc2x3 ? "IFC2X3" : "IFC4";
+}
+
+const IfcProperty*
+IfcPropertySet::find(std::string_view property) const
+{
+  for (const IfcProperty& one : properties)
+    if (one.name == property)
+      return &one;
+  return nullptr;
+}
+
+IfcModel::IfcModel(Part21File file) : parts_(std::make_unique<Parts>(std::move(file)))
+{
+  parts_->schema = schemaOf(parts_->file);
+  parts_->references = parts_->file.countReferences();
+  parts_->readRelations();
+  parts_->readPlacements();
+  parts_->readSpatial();
+  parts_->readElements();
+}
+
+IfcModel::IfcModel(IfcModel&&) noexcept = default;
+IfcModel& IfcModel::operator=(IfcModel&&) noexcept = default;
+IfcModel::~IfcModel() = default;
+
+IfcModel
+IfcModel::load(const std::filesystem::path& path)
+{
+  return IfcModel(Part21File::read(path));
+}
+
+const Part21File&
+IfcModel::file() const
+{
+  return parts_->file;
+}
+
+IfcSchema
+IfcModel::schema() const
+{
+  return parts_->schema;
+}
+
+double
+IfcModel::lengthUnit() const
+{
+  return parts_->units.length;
+}
+
+double
+IfcModel::massUnit() const
+{
+  return parts_->units.mass;
+}
+
+const std::vector<IfcSpatialNode>&
+IfcModel::spatial() const
+{
+  return parts_->spatial;
+}
+
+const std::vector<IfcElement>&
+IfcModel::elements() const
+{
+  return parts_->elements;
+}
+
+const IfcElement*
+IfcModel::find(std::string_view global_id) const
+{
+  const auto found = parts_->by_global_id.find(std::string(global_id));
+  return found == parts_->by_global_id.end() ? nullptr
+                                             : &parts_->elements[found->second];
+}
+
+std::vector<IfcPropertySet>
+IfcModel::propertySets(std::uint64_t id) const
+{
+  return parts_->sets(id);
+}
+
+Eigen::Isometry3d
+IfcModel::placement(std::uint64_t id) const
+{
+  const auto found = parts_->placements.find(id);
+  return found == parts_->placements.end() ? Eigen::Isometry3d::Identity()
+                                           : found->second;
+}
+
+const std::vector<std::uint32_t>&
+IfcModel::references() const
+{
+  return parts_->references;
+}
+
+std::vector<std::uint32_t>
+IfcModel::relationsOf(std::string_view relation, std::uint64_t id) const
+{
+  const auto of = parts_->related.find(std::string(relation));
+  if (of == parts_->related.end())
+    return {};
+  const auto found = of->second.find(id);
+  return found == of->second.end() ? std::vector<std::uint32_t>() : found->second;
+}
+
+} // namespace hoist
