@@ -193,12 +193,12 @@ IfcEdit::Parts::writeContained()
       writer.edit().set(existing, 4, list + ')');
       continue;
     }
-    const IfcSpatialNode* node = nullptr;
-    for (const IfcSpatialNode& one : writer.model().spatial())
-      if (one.id == container)
-        node = &one;
+    std::string global_id;
+    for (const IfcSpatialNode& node : writer.model().spatial())
+      if (node.id == container)
+        global_id = node.global_id;
     writer.edit().append(relation,
-                         {writer.globalId(node->global_id + "/contained"),
+                         {writer.globalId(global_id + "/contained"),
                           Writer::ref(writer.ownerHistory()),
                           "$",
                           "$",

@@ -5,7 +5,9 @@
 #include "ifc_units.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <iterator>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -27,6 +29,9 @@ constexpr Relation relations[] = {{"IFCRELDEFINESBYPROPERTIES", 4, 5},
                                   {"IFCRELASSOCIATESMATERIAL", 4, 5},
                                   {"IFCRELCONTAINEDINSPATIALSTRUCTURE", 4, 5},
                                   {"IFCRELAGGREGATES", 5, 4}};
+
+/// Properties and quantities that are a weight, the best first.
+constexpr const char* weight_names[] = {"GrossWeight", "NetWeight", "Weight", "Mass"};
 
 IfcSchema
 schemaOf(const Part21File& file)
@@ -52,17 +57,26 @@ schemaOf(const Part21File& file)
 } // namespace
 
 struct IfcModel::Parts {
+  struct SetWeights {
+    std::string name;
+    bool quantities = false;
+    std::array<std::optional<double>, std::size(weight_names)> weights; ///< [kg]
+  };
+
   explicit Parts(Part21File part21) : file(std::move(part21)) {}
 
   void readRelations();
   void readPlacement(std::uint64_t first);
   void readPlacements();
   void readSpatial();
+  void readStoreys();
   void readElements();
+  const SetWeights& weightsOf(std::uint64_t set);
   void setWeight(IfcElement& element);
+  std::vector<std::uint64_t> setIds(std::uint64_t id) const;
   std::string materialOf(std::uint64_t id) const;
   std::vector<IfcPropertySet> sets(std::uint64_t id) const;
-  std::uint64_t relatingOf(std::string_view relation, std::uint64_t id) const;
+  std::uint64_t relatingOf(const char* relation, std::uint64_t id) const;
   Eigen::Isometry3d inMetres(std::uint64_t placement) const;
 
   Part21File file;
@@ -70,6 +84,7 @@ struct IfcModel::Parts {
   ifc::Units units;
   std::vector<std::uint32_t> references;
   std::vector<IfcSpatialNode> spatial;
+  std::vector<int> storeys; ///< of each of them; -1 for none
   std::unordered_map<std::uint64_t, int> spatial_by_id;
   std::vector<IfcElement> elements;
   std::unordered_map<std::string, std::size_t> by_global_id;
@@ -77,6 +92,10 @@ struct IfcModel::Parts {
   /// Of every relation: instance of the model -> numbers of the relations of it.
   std::map<std::string, std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>>
       related;
+  /// What a relation says of its objects, by its number; 0 if that is no instance. A
+  /// list of ten thousand objects must not be parsed for each of them.
+  std::unordered_map<std::uint32_t, std::uint64_t> relating;
+  std::unordered_map<std::uint64_t, SetWeights> weights; ///< by id of the set
 };
 
 void
@@ -88,23 +107,19 @@ IfcModel::Parts::readRelations()
       const Entity entity(file, file.instances()[number].id);
       for (const std::uint64_t id : entity.references(relation.objects))
         of[id].push_back(number);
+      const Part21Value& said = entity.at(relation.relating);
+      relating[number] = said.is(Part21Value::Kind::reference) ? said.id : 0;
     }
   }
 }
 
 // What a relation relates the instance to; 0 for nothing.
 std::uint64_t
-IfcModel::Parts::relatingOf(std::string_view name, std::uint64_t id) const
+IfcModel::Parts::relatingOf(const char* relation, std::uint64_t id) const
 {
-  for (const Relation& relation : relations)
-    if (name == relation.name) {
-      const auto& of = related.at(relation.name);
-      const auto found = of.find(id);
-      if (found != of.end())
-        return Entity(file, file.instances()[found->second.front()].id)
-            .reference(relation.relating);
-    }
-  return 0;
+  const auto& of = related.at(relation);
+  const auto found = of.find(id);
+  return found == of.end() ? 0 : relating.at(found->second.front());
 }
 
 // Of one IfcLocalPlacement and of those that it is relative to.
@@ -188,35 +203,62 @@ IfcModel::Parts::readSpatial()
     if (parent != spatial_by_id.end())
       node.parent = parent->second;
   }
-  for (const IfcSpatialNode& node : spatial) {
-    std::size_t steps = 0;
-    for (int up = node.parent; up >= 0; up = spatial[up].parent)
-      if (++steps > spatial.size())
-        file.fail(file.find(node.id)->begin,
-                  "expected a spatial tree, found #" + std::to_string(node.id) +
+  readStoreys();
+}
+
+// The storey that each node is or lies in; each way up is gone once.
+void
+IfcModel::Parts::readStoreys()
+{
+  constexpr int unknown = -2, open = -3;
+  storeys.assign(spatial.size(), unknown);
+  std::vector<int> way;
+  for (int first = 0; first < static_cast<int>(spatial.size()); ++first) {
+    int storey = -1;
+    for (int up = first; up >= 0; up = spatial[up].parent) {
+      if (storeys[up] == open)
+        file.fail(file.find(spatial[up].id)->begin,
+                  "expected a spatial tree, found #" + std::to_string(spatial[up].id) +
                       " inside of itself");
+      if (storeys[up] != unknown) {
+        storey = storeys[up];
+        break;
+      }
+      storeys[up] = open;
+      way.push_back(up);
+    }
+    for (; !way.empty(); way.pop_back()) {
+      if (spatial[way.back()].entity == "IFCBUILDINGSTOREY")
+        storey = way.back();
+      storeys[way.back()] = storey;
+    }
   }
+}
+
+// Of its own sets, then of those of its type.
+std::vector<std::uint64_t>
+IfcModel::Parts::setIds(std::uint64_t id) const
+{
+  std::vector<std::uint64_t> out;
+  const auto& of = related.at("IFCRELDEFINESBYPROPERTIES");
+  if (const auto found = of.find(id); found != of.end())
+    for (const std::uint32_t number : found->second)
+      out.push_back(relating.at(number));
+  const std::uint64_t type = relatingOf("IFCRELDEFINESBYTYPE", id);
+  if (type != 0) {
+    const std::vector<std::uint64_t> more = Entity(file, type).references(5);
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  return out;
 }
 
 std::vector<IfcPropertySet>
 IfcModel::Parts::sets(std::uint64_t id) const
 {
   std::vector<IfcPropertySet> out;
-  const auto add = [&](std::uint64_t set) {
+  for (const std::uint64_t set : setIds(id))
     if (auto one = ifc::readPropertySet(file, set, units))
       out.push_back(std::move(*one));
-  };
-  const auto& of = related.at("IFCRELDEFINESBYPROPERTIES");
-  if (const auto found = of.find(id); found != of.end())
-    for (const std::uint32_t number : found->second) {
-      const Entity relation(file, file.instances()[number].id);
-      if (relation.at(5).is(Part21Value::Kind::reference))
-        add(relation.reference(5));
-    }
-  const std::uint64_t type = relatingOf("IFCRELDEFINESBYTYPE", id);
-  if (type != 0)
-    for (const std::uint64_t set : Entity(file, type).references(5))
-      add(set);
   return out;
 }
 
@@ -233,7 +275,7 @@ IfcModel::Parts::materialOf(std::uint64_t id) const
   std::vector<std::uint64_t> open;
   if (first != 0)
     open.push_back(first);
-  while (!open.empty() && names.size() < 100) {
+  while (!open.empty() && seen.size() < 1000) {
     const std::uint64_t next = open.back();
     open.pop_back();
     const Part21Instance* const instance = file.find(next);
@@ -263,37 +305,60 @@ IfcModel::Parts::materialOf(std::uint64_t id) const
   return out;
 }
 
-// The first of these that says something: gross before net, quantities before
-// properties.
+// What a set says of weights. Sets that many elements share are read once.
+const IfcModel::Parts::SetWeights&
+IfcModel::Parts::weightsOf(std::uint64_t set)
+{
+  const auto [entry, is_first] = weights.try_emplace(set);
+  SetWeights& out = entry->second;
+  const auto read = is_first ? ifc::readPropertySet(file, set, units)
+                             : std::optional<IfcPropertySet>();
+  if (!read)
+    return out;
+  out.name = read->name;
+  out.quantities = read->quantities;
+  for (std::size_t i = 0; i < std::size(weight_names); ++i) {
+    const IfcProperty* const property = read->find(weight_names[i]);
+    if (property == nullptr ||
+        (read->quantities && property->type != "IFCQUANTITYWEIGHT"))
+      continue;
+    double weight = 0;
+    if (const auto* real = std::get_if<double>(&property->value))
+      weight = *real;
+    else if (const auto* whole = std::get_if<std::int64_t>(&property->value))
+      weight = static_cast<double>(*whole);
+    if (weight > 0)
+      out.weights[i] = weight;
+  }
+  return out;
+}
+
+// The first that says something: quantities before properties, gross before net.
 void
 IfcModel::Parts::setWeight(IfcElement& element)
 {
-  const std::vector<IfcPropertySet> all = sets(element.id);
+  std::vector<const SetWeights*> all;
+  for (const std::uint64_t set : setIds(element.id))
+    all.push_back(&weightsOf(set));
   for (const bool quantities : {true, false})
-    for (const char* const name : {"GrossWeight", "NetWeight", "Weight", "Mass"})
-      for (const IfcPropertySet& set : all) {
-        const IfcProperty* const property =
-            set.quantities == quantities ? set.find(name) : nullptr;
-        if (property == nullptr ||
-            (quantities && property->type != "IFCQUANTITYWEIGHT"))
-          continue;
-        std::optional<double> weight;
-        if (const auto* real = std::get_if<double>(&property->value))
-          weight = *real;
-        else if (const auto* whole = std::get_if<std::int64_t>(&property->value))
-          weight = static_cast<double>(*whole);
-        if (weight && *weight > 0) {
-          element.weight = weight;
-          element.weight_source = set.name + "." + name;
+    for (std::size_t i = 0; i < std::size(weight_names); ++i)
+      for (const SetWeights* const set : all)
+        if (set->quantities == quantities && set->weights[i]) {
+          element.weight = set->weights[i];
+          element.weight_source = set->name + '.' + weight_names[i];
           return;
         }
-      }
 }
 
 void
 IfcModel::Parts::readElements()
 {
+  struct Shape {
+    std::optional<OrientedBox> box;
+    std::string source;
+  };
   ifc::ShapeCache shapes;
+  std::unordered_map<std::uint64_t, Shape> boxes; // shapes may be shared
   std::vector<char> wanted;
   for (const Part21Instance& instance : file.instances()) {
     // the entity of a number is the same throughout: looked up once
@@ -327,11 +392,8 @@ IfcModel::Parts::readElements()
     }
     if (const auto found = spatial_by_id.find(place); found != spatial_by_id.end())
       out.container = found->second;
-    for (int up = out.container; up >= 0; up = spatial[up].parent)
-      if (spatial[up].entity == "IFCBUILDINGSTOREY") {
-        out.storey = spatial[up].name;
-        break;
-      }
+    if (out.container >= 0 && storeys[out.container] >= 0)
+      out.storey = spatial[storeys[out.container]].name;
     out.material = materialOf(instance.id);
     setWeight(out);
 
@@ -340,8 +402,13 @@ IfcModel::Parts::readElements()
     out.box_source = "no shape";
     if (placement && placements.count(*placement) == 0)
       out.box_source = "placed on a grid";
-    else if (shape)
-      out.box = ifc::shapeBox(file, *shape, shapes, out.box_source);
+    else if (shape) {
+      const auto [entry, is_first] = boxes.try_emplace(*shape);
+      if (is_first)
+        entry->second.box = ifc::shapeBox(file, *shape, shapes, entry->second.source);
+      out.box = entry->second.box;
+      out.box_source = entry->second.source;
+    }
     if (out.box) {
       const Eigen::Isometry3d pose =
           placement ? placements.at(*placement) : Eigen::Isometry3d::Identity();
