@@ -26,6 +26,8 @@ Action addEvaluateCommand(CLI::App& program);
 
 Action addCocoCommand(CLI::App& program);
 
+Action addIfcCommand(CLI::App& program);
+
 /** \brief The hidden command that `hoist batch` starts its workers with. */
 Action addBatchWorkerCommand(CLI::App& program);
 

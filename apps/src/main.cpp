@@ -29,8 +29,9 @@ int
 usageFailure(const CLI::App& program, const std::string& reason)
 {
   std::string name = "hoist";
-  for (const CLI::App* command : program.get_subcommands())
-    name += " " + command->get_name();
+  for (std::vector<CLI::App*> parsed = program.get_subcommands(); !parsed.empty();
+       parsed = parsed.front()->get_subcommands())
+    name += " " + parsed.front()->get_name();
   std::string line = reason;
   for (char& c : line)
     c = c == '\n' ? ' ' : c;
@@ -53,8 +54,8 @@ unknownWord(const CLI::App& program, int argc, char** argv)
       if (command->get_option_no_throw(word.substr(0, word.find('='))) == nullptr)
         return "unknown option " + word.substr(0, word.find('='));
     }
-    else if (command == &program && word.rfind('-', 0) != 0) {
-      const std::vector<const CLI::App*> found = program.get_subcommands(
+    else if (!command->get_subcommands({}).empty() && word.rfind('-', 0) != 0) {
+      const std::vector<const CLI::App*> found = command->get_subcommands(
           [&](const CLI::App* one) { return one->get_name() == word; });
       if (found.empty())
         return "unknown command '" + word + "'";
@@ -88,7 +89,8 @@ main(int argc, char** argv)
 #endif
                                               hoist::addBatchWorkerCommand(program),
                                               hoist::addEvaluateCommand(program),
-                                              hoist::addCocoCommand(program)};
+                                              hoist::addCocoCommand(program),
+                                              hoist::addIfcCommand(program)};
   try {
     const std::string unknown = unknownWord(program, argc, argv);
     if (!unknown.empty())

@@ -1,23 +1,16 @@
 #include "ifc_geometry.h"
 
 #include "ifc_access.h"
+#include "ifc_profile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 namespace hoist {
 namespace ifc {
 namespace {
-
-using Points = std::vector<Eigen::Vector3d>;
-
-/// Geometry that is not simple: what it is.
-struct NotSimple : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Shapes may nest this deep, e.g. mapped items in mapped items.
 constexpr int max_nesting = 24;
@@ -75,22 +68,6 @@ smallestRectangle(const Points& outline)
     }
   }
   return best;
-}
-
-Points
-rectangle(double x, double y)
-{
-  return {
-      {-x / 2, -y / 2, 0}, {x / 2, -y / 2, 0}, {x / 2, y / 2, 0}, {-x / 2, y / 2, 0}};
-}
-
-double
-positive(const Entity& entity, std::size_t i)
-{
-  const double value = entity.number(i);
-  if (!(value > 0))
-    entity.fail(i, "a length above 0");
-  return value;
 }
 
 class Collector {
@@ -214,7 +191,7 @@ private:
     const Eigen::Vector3d along =
         positive(entity, 3) * direction(entity.follow(2, "IFCDIRECTION"));
     const Entity swept = entity.follow(0);
-    const Points outline = profile(swept, 0);
+    const Points outline = profilePoints(file_, swept);
     Part out;
     out.kind = swept.name() == "IFCRECTANGLEPROFILEDEF" ? "extrusion"
                                                         : "extrusion of an outline";
@@ -222,86 +199,6 @@ private:
     for (const Eigen::Vector3d& p : outline) {
       out.points.push_back(pose * p);
       out.points.push_back(pose * (p + along));
-    }
-    return out;
-  }
-
-  Points
-  profile(const Entity& entity, int depth)
-  {
-    const std::string_view name = entity.name();
-    if (name == "IFCARBITRARYCLOSEDPROFILEDEF" ||
-        name == "IFCARBITRARYPROFILEDEFWITHVOIDS")
-      return curve(entity.follow(2), 0);
-    if (name == "IFCDERIVEDPROFILEDEF" && depth < 4) {
-      Points out = profile(entity.follow(2), depth + 1);
-      const Eigen::Affine3d turned = transformation(entity.follow(3));
-      for (Eigen::Vector3d& p : out)
-        p = turned * p;
-      return out;
-    }
-    Points out;
-    if (name == "IFCRECTANGLEPROFILEDEF" || name == "IFCROUNDEDRECTANGLEPROFILEDEF" ||
-        name == "IFCRECTANGLEHOLLOWPROFILEDEF" || name == "IFCISHAPEPROFILEDEF")
-      out = rectangle(positive(entity, 3), positive(entity, 4));
-    else if (name == "IFCTSHAPEPROFILEDEF" || name == "IFCUSHAPEPROFILEDEF" ||
-             name == "IFCCSHAPEPROFILEDEF")
-      out = rectangle(positive(entity, 4), positive(entity, 3)); // depth goes first
-    else if (name == "IFCLSHAPEPROFILEDEF")
-      out = rectangle(entity.numberIf(4).value_or(positive(entity, 3)),
-                      positive(entity, 3));
-    else if (name == "IFCCIRCLEPROFILEDEF" || name == "IFCCIRCLEHOLLOWPROFILEDEF")
-      out = rectangle(2 * positive(entity, 3), 2 * positive(entity, 3));
-    else if (name == "IFCELLIPSEPROFILEDEF")
-      out = rectangle(2 * positive(entity, 3), 2 * positive(entity, 4));
-    else
-      throw NotSimple("an extruded " + std::string(name));
-    if (entity.referenceIf(2)) {
-      const Eigen::Isometry3d pose = axisPlacement(entity.follow(2));
-      for (Eigen::Vector3d& p : out)
-        p = pose * p;
-    }
-    return out;
-  }
-
-  Points
-  curve(const Entity& entity, int depth)
-  {
-    const std::string_view name = entity.name();
-    Points out;
-    if (name == "IFCPOLYLINE") {
-      for (const std::uint64_t id : entity.references(0))
-        out.push_back(point(Entity(file_, id)));
-      return out;
-    }
-    if (name == "IFCINDEXEDPOLYCURVE") // an arc is taken by its three points
-      return pointList(entity.follow(0));
-    if (name == "IFCCOMPOSITECURVE" && depth < 4) {
-      for (const std::uint64_t id : entity.references(0)) {
-        const Points more = curve(Entity(file_, id).follow(2), depth + 1);
-        out.insert(out.end(), more.begin(), more.end());
-      }
-      return out;
-    }
-    throw NotSimple("an outline of " + std::string(name));
-  }
-
-  static Points
-  pointList(const Entity& entity)
-  {
-    Points out;
-    if (!entity.at(0).is(Part21Value::Kind::list))
-      entity.fail(0, "a list of points");
-    for (const Part21Value& row : entity.at(0).items) {
-      Eigen::Vector3d p = Eigen::Vector3d::Zero();
-      if (row.items.size() < 2 || row.items.size() > 3)
-        entity.fail(0, "points of two or three numbers");
-      for (std::size_t i = 0; i < row.items.size(); ++i) {
-        if (!row.items[i].isNumber())
-          entity.fail(0, "points of two or three numbers");
-        p[static_cast<Eigen::Index>(i)] = row.items[i].number;
-      }
-      out.push_back(p);
     }
     return out;
   }

@@ -19,7 +19,7 @@ mkdir -p "$work/models"
 cp "$source_dir/package.json" "$source_dir/package-lock.json" "$source_dir/verify.mjs" "$work"
 cd "$work"
 if ! cmp -s package-lock.json node_modules/.installed; then
-  timeout 300 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error >npm.log 2>&1 ||
+  timeout 300 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1 >npm.log 2>&1 ||
     skip "the npm packages cannot be installed: $(tail -n 1 npm.log)"
   cp package-lock.json node_modules/.installed
 fi
