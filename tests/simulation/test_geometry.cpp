@@ -28,6 +28,23 @@ volume(const Mesh& mesh)
   return sum;
 }
 
+// The normals at a loft's open ends are those of the one band there.
+TEST(Loft, EndsLookOutOfTheOnlyBandThere)
+{
+  for (const double top : {0.5, 0.3}) {
+    simulation::Ring low, high;
+    low.half_x = low.half_y = 0.5;
+    high.half_x = high.half_y = top;
+    high.z = 1;
+    const simulation::Mesh mesh = simulation::loftMesh({low, high}, 16);
+    // outwards and upwards, as a cone of this slope looks
+    const double up = (0.5 - top) / std::hypot(1.0, 0.5 - top);
+    ASSERT_FALSE(mesh.normals.empty());
+    for (const Eigen::Vector3f& normal : mesh.normals)
+      EXPECT_NEAR(normal.z(), up, 1e-6);
+  }
+}
+
 TEST(Random, SineAgreesWithTheLibrarys)
 {
   for (int i = -4000; i <= 4000; ++i) {

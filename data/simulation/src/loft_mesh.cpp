@@ -69,10 +69,10 @@ loftMesh(const std::vector<Ring>& rings, int segments)
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (const OutlinePoint& point : points) {
       Eigen::Vector3d normal = bandNormal(rings[band], rings[band + 1], point);
-      if (!rings[ring].crease) {
+      const bool at_end = ring == 0 || ring + 1 == rings.size();
+      if (!rings[ring].crease && !at_end) {
         const std::size_t other = ring == band ? band - 1 : band + 1;
-        if (other + 1 < rings.size()) // band - 1 of the first wraps around
-          normal += bandNormal(rings[other], rings[other + 1], point);
+        normal += bandNormal(rings[other], rings[other + 1], point);
       }
       if (normal.squaredNorm() > 0)
         normal.normalize();
