@@ -241,7 +241,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>())
   if (!scene.sensor.camera.valid() || !scene.sensor_to_world.matrix().allFinite())
     throw std::invalid_argument("the camera of '" + scene.name + "' has no numbers");
   // one instruction set and one building thread: the same tree everywhere
-  impl_->device = rtcNewDevice("threads=1,set_affinity=0,isa=sse2");
+  impl_->device = rtcNewDevice("threads=1,set_affinity=0,isa=sse4.2");
   if (impl_->device == nullptr)
     throw std::runtime_error("Embree: no device, error " +
                              std::to_string(rtcGetDeviceError(nullptr)));

@@ -26,8 +26,9 @@ struct Hit {
  *
  * Embree finds the triangle; the distance is then the plane's, in double, so that a
  * depth is that of the geometry to 1e-9 of it. Every query gives the same answer at any
- * number of threads and on every processor: the tree is built by one thread, with SSE2
- * only. Queries may run in parallel.
+ * number of threads and on every processor: the tree is built by one thread, and all
+ * use SSE4.2, which all x86 processors of the last ten years have, and none more.
+ * Queries may run in parallel.
  */
 class RayCaster {
 public:
