@@ -5,6 +5,7 @@
 #include "validators.h"
 
 #include <hoist/data/atomic_file.h>
+#include <hoist/data/load_error.h>
 #include <hoist/simulation/suites.h>
 
 #include <fmt/format.h>
@@ -89,8 +90,13 @@ simulateFrames(const SimulateSettings& settings)
     throw UsageError("--output is required");
 
   SimulationRun run;
-  run.description = simulation::parseDescription(
-      text, suite != nullptr ? suite->name + ".yaml" : settings.scene);
+  try {
+    run.description = simulation::parseDescription(
+        text, suite != nullptr ? suite->name + ".yaml" : settings.scene);
+  }
+  catch (const LoadError& error) { // bad values, as those of the command line
+    throw UsageError(error.what());
+  }
   run.seed = settings.seed.value_or(suite != nullptr ? suite->seed : 1);
   run.first = settings.first;
   run.count = settings.count.value_or(suite != nullptr ? suite->frames : 1);
@@ -148,6 +154,7 @@ addSimulateCommand(CLI::App& program)
       ->add_option("--seed",
                    settings->seed,
                    "Everything random follows from it (default: the suite's, else 1)")
+      ->check(CLI::NonNegativeNumber) // -1 would become the largest seed
       ->type_name("S");
   command
       ->add_option(
@@ -174,11 +181,19 @@ addSimulateCommand(CLI::App& program)
       ->capture_default_str()
       ->type_name("N");
   command->add_flag(
-      "--resume", settings->resume, "Leave frames that are complete in DIR");
+      "--resume",
+      settings->resume,
+      "Leave frames that are in DIR with all their files and the same seed");
   command->add_flag("-q,--quiet", settings->quiet, "No progress on stderr");
-  command->footer("\nThe same description, seed and number make the same frame at any "
-                  "number of threads.\nExample: hoist simulate --suite crane-tof -n 20 "
-                  "-o frames\n");
+  command->footer(
+      "\nThe same description, seed and number make the same frame at any "
+      "number of threads.\n"
+      "Exit codes: 0 done; 1 a file cannot be read or written, e.g. a mesh; "
+      "2 unknown option or\nsuite, bad value, on the command line or in the "
+      "SCENE.\n"
+      "Example: hoist simulate --suite crane-tof -n 20 -o frames\n"
+      "         hoist simulate --suite crane-tof --print > scene.yaml\n"
+      "         hoist simulate scene.yaml --seed 7 -n 100 -o frames\n");
   return [settings] { return simulateFrames(*settings); };
 }
 

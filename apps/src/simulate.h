@@ -18,7 +18,9 @@ struct SimulationRun {
   std::filesystem::path folder;
   std::vector<simulation::FrameFormat> formats;
   int threads = 1;
-  bool resume = false; ///< frames that are complete in the folder are left as they are
+  /// Frames of which all files are in the folder, from the same seed, are left as they
+  /// are.
+  bool resume = false;
   bool quiet = false;
 };
 

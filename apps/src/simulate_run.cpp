@@ -50,27 +50,43 @@ public:
   }
 
 private:
+  // All files of the frame, made with this seed; what cannot be read is made again.
+  bool
+  isThere(const fs::path& stem, int number) const
+  {
+    const std::vector<fs::path> files = simulation::frameFiles(stem, run_.formats);
+    if (!std::all_of(files.begin(), files.end(), [](const fs::path& file) {
+          return fs::exists(file);
+        }))
+      return false;
+    try {
+      return loadAnnotation(files.back()).seed ==
+             simulation::frameSeed(run_.seed, number);
+    }
+    catch (const LoadError&) {
+      return false;
+    }
+  }
+
   void
   make(int number)
   {
-    const simulation::Scene scene =
-        simulation::makeScene(run_.description, run_.seed, number);
-    const fs::path stem = run_.folder / scene.name;
-    fs::path truth = stem;
-    truth += ".json";
-    if (run_.resume && fs::exists(truth)) {
+    const std::string name = simulation::frameName(run_.description, number);
+    const fs::path stem = run_.folder / name;
+    if (run_.resume && isThere(stem, number)) {
       const std::lock_guard<std::mutex> lock(mutex_);
       ++report_.kept;
-      progress_.begin(scene.name);
+      progress_.begin(name);
       progress_.end("is there");
       return;
     }
-    const simulation::Frame frame = simulation::simulate(scene);
+    const simulation::Frame frame = simulation::simulate(
+        simulation::makeScene(run_.description, run_.seed, number));
     const std::uint64_t bytes = writeFrame(frame, stem, run_.formats);
     const std::lock_guard<std::mutex> lock(mutex_);
     ++report_.frames;
     report_.bytes += bytes;
-    progress_.begin(scene.name);
+    progress_.begin(name);
     progress_.end(std::to_string(frame.truth.objects.size()) + " things");
   }
 
