@@ -175,14 +175,15 @@ IfcEdit::Parts::writeContained()
 {
   const char* const relation = "IFCRELCONTAINEDINSPATIALSTRUCTURE";
   for (const auto& [container, elements] : contained) {
-    Id existing = 0;
-    for (const std::uint32_t number : writer.model().file().ofType(relation)) {
-      const Id id = writer.model().file().instances()[number].id;
-      if (writer.reference(id, 5) == container) {
-        existing = id;
-        break;
+    Id& existing = containments[container]; // also of an earlier call
+    if (existing == 0)
+      for (const std::uint32_t number : writer.model().file().ofType(relation)) {
+        const Id id = writer.model().file().instances()[number].id;
+        if (writer.reference(id, 5) == container) {
+          existing = id;
+          break;
+        }
       }
-    }
     if (existing != 0) {
       // the bytes that are there stay, the new ones go before the ")"
       std::string list = writer.edit().get(existing, 4);
@@ -197,13 +198,13 @@ IfcEdit::Parts::writeContained()
     for (const IfcSpatialNode& node : writer.model().spatial())
       if (node.id == container)
         global_id = node.global_id;
-    writer.edit().append(relation,
-                         {writer.globalId(global_id + "/contained"),
-                          Writer::ref(writer.ownerHistory()),
-                          "$",
-                          "$",
-                          Writer::list(elements),
-                          Writer::ref(container)});
+    existing = writer.edit().append(relation,
+                                    {writer.globalId(global_id + "/contained"),
+                                     Writer::ref(writer.ownerHistory()),
+                                     "$",
+                                     "$",
+                                     Writer::list(elements),
+                                     Writer::ref(container)});
   }
   contained.clear();
 }

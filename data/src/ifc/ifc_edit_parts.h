@@ -57,6 +57,8 @@ struct IfcEdit::Parts {
   std::unordered_map<std::string, OrientedBox> boxes; ///< as they are now, by GlobalId
   std::unordered_map<Id, Eigen::Isometry3d> placed;   ///< new placements in the world
   std::map<Id, std::vector<Id>> contained;            ///< container -> new elements
+  std::map<Id, Id>
+      containments; ///< container -> the relation that says what it contains
   std::map<std::string, std::unordered_map<Id, std::vector<Id>>> first_references;
 };
 

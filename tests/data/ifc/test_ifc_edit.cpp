@@ -324,6 +324,22 @@ TEST(IfcEdit, ColoursAndMaterialsChange)
   EXPECT_EQ(model.file().ofType("IFCRELASSOCIATESMATERIAL").size(), 2u);
 }
 
+TEST(IfcEdit, GoesOnAfterItsBytesWereAskedFor)
+{
+  const IfcModel empty = modelOf(hoist::newIfcModel());
+  IfcEdit edit(empty);
+  for (const char* const key : {"a", "b", "c"}) {
+    edit.put(thing(key, boxAt(*key, 0, 1)));
+    (void)edit.part21();
+  }
+  const std::string bytes = edit.part21().bytes();
+  expectSound(bytes);
+  EXPECT_EQ(modelOf(bytes).file().ofType("IFCRELCONTAINEDINSPATIALSTRUCTURE").size(),
+            1u);
+  for (const IfcElement& element : modelOf(bytes).elements())
+    EXPECT_EQ(element.storey, "ground");
+}
+
 TEST(IfcEdit, RefusesWhatIsNone)
 {
   const IfcModel model = modelOf(hoist::newIfcModel());
