@@ -1,10 +1,10 @@
 #include "overlay.h"
 
 #include "background.h"
+#include "cuboid_drawing.h"
 #include "drawing.h"
 #include "labels.h"
 #include "palette.h"
-#include "size_text.h"
 #include "wireframe.h"
 
 #include <hoist/filters/edge_kind.h>
@@ -19,8 +19,6 @@
 
 namespace hoist {
 namespace {
-
-constexpr int min_columns = 1280;
 
 bool
 anyOf(const cv::Mat1b& kinds, int kind)
@@ -64,9 +62,7 @@ labelText(const RecognizedCuboid& recognized, std::size_t number)
     std::snprintf(weight, sizeof weight, "  %.3g kg", recognized.features.weight);
     second += weight;
   }
-  return {"#" + std::to_string(number + 1) + "  " + sizeText(cuboid, 0) + " x " +
-              sizeText(cuboid, 1) + " x " + sizeText(cuboid, 2) + " cm",
-          second};
+  return {numberAndSizes(cuboid, number), second};
 }
 
 double
@@ -137,38 +133,6 @@ drawVertices(cv::Mat3b& image, const OverlayContents& contents, int scale, int r
   }
 }
 
-void
-tint(cv::Mat3b& image, const cv::Mat1i& owners)
-{
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x)
-      if (owners(y, x) >= 0) {
-        const cv::Scalar color = cuboidColor(static_cast<std::size_t>(owners(y, x)));
-        cv::Vec3b& pixel = image(y, x);
-        for (int c = 0; c < 3; ++c)
-          pixel[c] =
-              cv::saturate_cast<unsigned char>(0.95 * pixel[c] + 0.05 * color[c]);
-      }
-}
-
-// Hidden pieces thin and dashed under all seen ones.
-void
-drawWireframes(cv::Mat3b& image,
-               const std::vector<std::vector<EdgePiece>>& edges,
-               int scale)
-{
-  for (const bool hidden : {true, false})
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      for (const EdgePiece& piece : edges[i]) {
-        if (piece.hidden != hidden)
-          continue;
-        if (hidden)
-          drawDashedLine(image, piece.from, piece.to, cuboidColor(i), 1, 4 * scale);
-        else
-          drawHaloLine(image, piece.from, piece.to, cuboidColor(i), scale);
-      }
-}
-
 std::string
 summary(const FrameResult& result)
 {
@@ -209,8 +173,8 @@ cv::Mat3b
 drawOverlay(const OverlayContents& contents)
 {
   const FrameImages& images = contents.images;
-  const int scale = std::max(1, (min_columns + images.width() - 1) / images.width());
-  const int text_scale = std::max(1, images.width() * scale / 1280);
+  const int scale = enlargement(images.width());
+  const int text_scale = textScaleOf(images.width() * scale);
   cv::Mat3b image = background(images, scale);
   if (!contents.edges.empty())
     drawEdges(image, contents.edges, scale);
@@ -226,10 +190,11 @@ drawOverlay(const OverlayContents& contents)
     edges.push_back(wireframes.edges(i));
 
   const cv::Mat1i owners = wireframes.owners(image.size());
-  tint(image, owners);
+  constexpr double faint = 0.05; // the picture's own colours stay readable
+  tintCuboids(image, owners, faint);
   drawSegments(image, contents.segments, edges, scale);
   drawVertices(image, contents, scale, 4 * text_scale);
-  drawWireframes(image, edges, scale);
+  drawCuboidEdges(image, edges, scale, std::vector<int>(edges.size(), scale));
   LabelPlacer labels(owners, text_scale);
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     labels.add(

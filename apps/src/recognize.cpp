@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "failures.h"
+#include "png.h"
 #include "progress.h"
 #include "recognizer.h"
 #include "settings.h"
@@ -8,8 +9,6 @@
 
 #include <hoist/data/atomic_file.h>
 #include <hoist/data/result_io.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include <fmt/format.h>
 
@@ -113,12 +112,8 @@ private:
       saveWireframePly(path, result);
     else if (format == "pcd")
       saveLabelledCloud(path, *frame.loaded.cloud, result);
-    else {
-      std::vector<unsigned char> bytes;
-      cv::imencode(".png", recognizer_.overlay(frame, result), bytes);
-      writeFileAtomically(path,
-                          {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }
+    else
+      savePng(path, recognizer_.overlay(frame, result));
   }
 
   // One file: its object. Several: an array of them.

@@ -1,3 +1,4 @@
+#include <hoist/data/frame_fields.h>
 #include <hoist/data/load_frame.h>
 #include <hoist/data/pts_io.h>
 
@@ -103,6 +104,19 @@ loadFrame(const std::string& file, const LoadOptions& options)
     throw LoadError(file, "", "not enough memory for its points");
   }
   return frame;
+}
+
+std::vector<FrameField>
+loadFrameFields(const std::string& file, std::size_t most, const LoadOptions& options)
+{
+  try {
+    if (ending(file) == ".pcd")
+      return detail::readPcdFields(file, options, most);
+  }
+  catch (const std::bad_alloc&) {
+    throw LoadError(file, "", "not enough memory for its fields");
+  }
+  return {};
 }
 
 } // namespace hoist

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <hoist/data/frame_fields.h>
 #include <hoist/data/load_frame.h>
 
 #include <cstddef>
@@ -60,6 +61,10 @@ std::string readHead(const std::string& file, std::size_t bytes, std::uint64_t& 
 
 /** \throws LoadError */
 RawCloud readPcd(const std::string& file, const LoadOptions& options);
+
+/** \brief The fields of loadFrameFields(). \throws LoadError */
+std::vector<FrameField>
+readPcdFields(const std::string& file, const LoadOptions& options, std::size_t most);
 
 /** \throws LoadError */
 RawCloud readPly(const std::string& file, const LoadOptions& options);

@@ -220,11 +220,35 @@ private:
   Header header_;
 };
 
+// Numbers of the fields that are neither coordinates nor packed colour.
+std::vector<std::size_t>
+furtherFields(const Header& header, std::size_t most)
+{
+  std::vector<std::size_t> found;
+  if (*header.height < 2)
+    return found;
+  for (std::size_t f = 0; f < header.fields.size() && found.size() < most; ++f) {
+    const Field& field = header.fields[f];
+    const Role role = roleOf(field.name);
+    const bool place = role == Role::x || role == Role::y || role == Role::z;
+    if (!place && role != Role::packed_color && field.name != "_" && field.count == 1)
+      found.push_back(f);
+  }
+  return found;
+}
+
+// A further field that is kept, and which of the header's it is.
+struct KeptField {
+  std::size_t field;
+  FrameField& to;
+};
+
 struct Reader {
   const std::string& file;
   Header header;
   std::vector<Role> roles;
   RawCloud cloud;
+  std::vector<KeptField> kept;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> in{nullptr, &std::fclose};
   std::uint64_t bytes_left = 0; // of the file, behind the header
 
@@ -242,12 +266,26 @@ struct Reader {
   }
 
   void
-  assignAll(Record& record, const std::uint8_t* bytes) const
+  assignAll(std::uint64_t point, const std::uint8_t* bytes)
   {
     for (std::size_t f = 0; f < roles.size(); ++f)
       if (roles[f] != Role::none)
-        assign(
-            record, roles[f], header.fields[f].type, bytes + header.fields[f].offset);
+        assign(cloud.records[point],
+               roles[f],
+               header.fields[f].type,
+               bytes + header.fields[f].offset);
+    for (const KeptField& one : kept) {
+      const Field& field = header.fields[one.field];
+      one.to.values.push_back(number(field.type, bytes + field.offset));
+    }
+  }
+
+  static float
+  number(NumberType type, const std::uint8_t* bytes)
+  {
+    Record record;
+    assign(record, Role::x, type, bytes);
+    return record.x;
   }
 
   void
@@ -268,7 +306,7 @@ struct Reader {
       const std::uint64_t n = std::min(block, points - i);
       read(buffer.data(), n * header.step);
       for (std::uint64_t k = 0; k < n; ++k)
-        assignAll(cloud.records[i + k], &buffer[k * header.step]);
+        assignAll(i + k, &buffer[k * header.step]);
       i += n;
     }
   }
@@ -319,6 +357,12 @@ struct Reader {
       for (std::uint64_t i = 0; i < points; ++i)
         assign(cloud.records[i], roles[f], field.type, column + i * size);
     }
+    for (const KeptField& one : kept) {
+      const Field& field = header.fields[one.field];
+      const std::uint8_t* column = output.data() + field.offset * points;
+      for (std::uint64_t i = 0; i < points; ++i)
+        one.to.values.push_back(number(field.type, column + i * field.type.size));
+    }
   }
 
   void
@@ -367,7 +411,7 @@ struct Reader {
   }
 
   void
-  parsePoint(Record& record, const char* p, const char* stop, std::size_t line) const
+  parsePoint(Record& record, const char* p, const char* stop, std::size_t line)
   {
     std::array<std::uint8_t, 8> bytes{};
     for (std::size_t f = 0; f < roles.size(); ++f)
@@ -392,6 +436,9 @@ struct Reader {
                   ", found " + shown(std::string(token, p)));
         if (k == 0)
           assign(record, roles[f], field.type, bytes.data());
+        for (const KeptField& one : kept)
+          if (one.field == f)
+            one.to.values.push_back(number(type, bytes.data()));
       }
     while (*p == ' ' || *p == '\t' || *p == '\r')
       ++p;
@@ -401,14 +448,16 @@ struct Reader {
   }
 };
 
-} // namespace
-
+// Reads the points, and the further fields into \a further if it is not null.
 RawCloud
-readPcd(const std::string& file, const LoadOptions& options)
+readAll(const std::string& file,
+        const LoadOptions& options,
+        std::vector<FrameField>* further,
+        std::size_t most)
 {
   std::uint64_t size = 0;
   const std::string head = readHead(file, max_header, size);
-  Reader reader{file, HeaderParser(file, head).parse(), {}, {}};
+  Reader reader{file, HeaderParser(file, head).parse(), {}, {}, {}};
   const Header& header = reader.header;
   if (*header.points > options.max_points)
     throw LoadError(file,
@@ -433,6 +482,15 @@ readPcd(const std::string& file, const LoadOptions& options)
   reader.cloud.origin = {pose[0], pose[1], pose[2]};
   reader.cloud.orientation = Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6]);
 
+  if (further != nullptr) {
+    const std::vector<std::size_t> found = furtherFields(header, most);
+    if (found.empty())
+      return {};
+    for (const std::size_t f : found)
+      further->push_back({header.fields[f].name, {}});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      reader.kept.push_back({found[i], (*further)[i]});
+  }
   reader.bytes_left = size - header.size;
   if (header.data == "ascii")
     reader.readAscii();
@@ -447,6 +505,22 @@ readPcd(const std::string& file, const LoadOptions& options)
       reader.readCompressed();
   }
   return std::move(reader.cloud);
+}
+
+} // namespace
+
+RawCloud
+readPcd(const std::string& file, const LoadOptions& options)
+{
+  return readAll(file, options, nullptr, 0);
+}
+
+std::vector<FrameField>
+readPcdFields(const std::string& file, const LoadOptions& options, std::size_t most)
+{
+  std::vector<FrameField> fields;
+  readAll(file, options, &fields, most);
+  return fields;
 }
 
 } // namespace detail

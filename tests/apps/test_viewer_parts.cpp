@@ -2,6 +2,7 @@
 #include "failures.h"
 #include "viewer/camera_file.h"
 #include "viewer/detections.h"
+#include "viewer/hidden_edges.h"
 #include "viewer/keys.h"
 #include "viewer/live_settings.h"
 #include "viewer/pick.h"
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -257,6 +259,86 @@ TEST(SceneLoader, BadFilesAreScenesThatSayWhy)
   paper.mode = "paper";
   loader.setSettings(paper);
   EXPECT_FALSE(waitFor(loader)->error.empty());
+}
+
+// Brute force: a point of an edge is hidden if the way to it passes through the box.
+TEST(HiddenEdges, AreThoseBehindTheBox)
+{
+  Cuboid box;
+  box.center = {0.1, -0.2, 1.5};
+  box.size = {0.5, 0.3, 0.2};
+  box.axes = (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()))
+                 .toRotationMatrix();
+  const Eigen::Matrix<double, 3, 8> corners = box.corners();
+  const auto hides = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    for (int i = 1; i < 4000; ++i) {
+      const Eigen::Vector3d p = from + i / 4000.0 * (to - from);
+      const Eigen::Vector3d local = box.axes.transpose() * (p - box.center);
+      // a little inside: the line's own end lies on the box
+      if (((2 * local).cwiseAbs().array() < (box.size.array() - 1e-3)).all())
+        return true;
+    }
+    return false;
+  };
+  int most = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Eigen::Vector3d eye =
+        box.center + 1.5 * Eigen::Vector3d(std::sin(1.0 * k),
+                                           std::cos(2.3 * k),
+                                           std::sin(0.7 * k + 1));
+    const int hidden = hiddenEdges(corners, eye, false);
+    int bit = 1, count = 0;
+    for (const auto& edge : Cuboid::edges()) {
+      const Eigen::Vector3d middle =
+          0.5 * (corners.col(edge[0]) + corners.col(edge[1]));
+      EXPECT_EQ((hidden & bit) != 0, hides(eye, middle)) << "eye " << eye.transpose();
+      count += (hidden & bit) != 0 ? 1 : 0;
+      bit <<= 1;
+    }
+    most = std::max(most, count);
+    // from very far away the ways are parallel
+    const Eigen::Vector3d towards = (eye - box.center).normalized();
+    EXPECT_EQ(hiddenEdges(corners, towards, true),
+              hiddenEdges(corners, box.center + 1e6 * towards, false));
+  }
+  EXPECT_GT(most, 2);
+  EXPECT_EQ(hiddenEdges(corners, box.center, false), 0);
+}
+
+// What both threads touch while a frame is recognised again: under ThreadSanitizer.
+TEST(SceneLoader, AFrameIsSharedAndStaysAsItIs)
+{
+  const std::string file = std::string(HOIST_SAMPLES_DIR) + "/scenes/slab.pcd";
+  SceneLoader loader({file, file, file}, {}, {});
+  const Scene::ConstPtr first = waitFor(loader);
+  ASSERT_TRUE(first->hasFrame()) << first->error;
+  const cv::Mat1f before = first->frame->images->inverse_depth.clone();
+  RecognizeSettings settings;
+  settings.full.min_score = 1;
+  loader.setSettings(settings);
+  double sum = 0;
+  Scene::ConstPtr second;
+  do {
+    for (const float w : first->frame->images->inverse_depth)
+      sum += w;
+  } while (!(second = loader.wanted()));
+  EXPECT_GT(sum, 0);
+  EXPECT_EQ(second->frame, first->frame); // not loaded again
+  EXPECT_NE(second, first);
+  EXPECT_FALSE(first->result.cuboids.empty()); // a scene that is held does not change
+  EXPECT_TRUE(second->result.cuboids.empty());
+  EXPECT_EQ(cv::norm(before, first->frame->images->inverse_depth, cv::NORM_INF), 0);
+}
+
+TEST(SceneLoader, StopsAndThenBeginsNothing)
+{
+  const std::string file = std::string(HOIST_SAMPLES_DIR) + "/scenes/slab.pcd";
+  SceneLoader loader({file, file, file, file, file, file}, {}, {});
+  waitFor(loader);
+  EXPECT_TRUE(loader.stop(std::chrono::hours(1)));
+  loader.want(5);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(loader.wanted(), nullptr);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // loadFrame: formats, conversions, lost grids, poses.
 #include "temp_folder.h"
 
+#include <hoist/data/frame_fields.h>
 #include <hoist/data/load_frame.h>
 #include <hoist/data/point_types.h>
 #include <hoist/data/pts_io.h>
@@ -357,6 +358,73 @@ TEST(LoadFrameRealData, PtsAndPcdOfOneFrameAreTheSame)
     expectSame(*pts.cloud, *pcd.cloud);
     EXPECT_EQ(pts.intrinsics.fx, pcd.intrinsics.fx);
   }
+}
+
+// Further fields of every kind of PCD file are what was written, as floats; nothing
+// that a frame is made of is among them.
+TEST(LoadFrameFields, AreThoseOfTheFile)
+{
+  pcl::PointCloud<pcl::PointXYZRGBNormal> cloud(64, 48);
+  const Cloud frame = frame64();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    auto& p = cloud[i];
+    p.x = frame[i].x;
+    p.y = frame[i].y;
+    p.z = frame[i].z;
+    p.rgba = frame[i].rgba;
+    p.normal_x = 0.25f * static_cast<float>(i);
+    p.normal_y = -1;
+    p.normal_z = nan;
+    p.curvature = static_cast<float>(i % 64);
+  }
+  const TempFolder folder;
+  pcl::PCDWriter writer;
+  for (const char* name : {"ascii.pcd", "binary.PCD", "compressed.pcd"}) {
+    const std::string file = folder.name(name);
+    ASSERT_EQ(name[0] == 'a'   ? writer.writeASCII(file, cloud, 9)
+              : name[0] == 'b' ? writer.writeBinary(file, cloud)
+                               : writer.writeBinaryCompressed(file, cloud),
+              0);
+    const auto fields = hoist::loadFrameFields(file);
+    ASSERT_EQ(fields.size(), 4U) << name;
+    EXPECT_EQ(fields[0].name, "normal_x");
+    EXPECT_EQ(fields[3].name, "curvature");
+    for (const auto& field : fields)
+      ASSERT_EQ(field.values.size(), cloud.size()) << name;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      EXPECT_EQ(fields[0].values[i], cloud[i].normal_x);
+      EXPECT_EQ(fields[1].values[i], -1);
+      EXPECT_TRUE(std::isnan(fields[2].values[i]));
+      EXPECT_EQ(fields[3].values[i], cloud[i].curvature);
+    }
+    EXPECT_EQ(hoist::loadFrameFields(file, 2).size(), 2U);
+    expectSame(*loadFrame(file).cloud, frame); // the frame is the same with them
+  }
+}
+
+TEST(LoadFrameFields, OfWholeNumbersAndNotOfPadding)
+{
+  const TempFolder folder;
+  const std::string header = "VERSION 0.7\nFIELDS x y z label _ flags pair\n"
+                             "SIZE 4 4 4 4 1 1 4\nTYPE F F F U U I F\n"
+                             "COUNT 1 1 1 1 4 1 2\n";
+  const std::string points = "1 2 3 4000000 9 9 9 9 -5 1 2\n"
+                             "1 2 3 7 9 9 9 9 6 1 2\n";
+  const auto grid = hoist::loadFrameFields(folder.write(
+      "grid.pcd", header + "WIDTH 1\nHEIGHT 2\nPOINTS 2\nDATA ascii\n" + points));
+  ASSERT_EQ(grid.size(), 2U); // not the pair: which of the two?
+  EXPECT_EQ(grid[0].name, "label");
+  EXPECT_EQ(grid[0].values, (std::vector<float>{4000000, 7}));
+  EXPECT_EQ(grid[1].values, (std::vector<float>{-5, 6}));
+  // without its own grid the order of the points is lost
+  EXPECT_TRUE(
+      hoist::loadFrameFields(
+          folder.write("row.pcd",
+                       header + "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n" + points))
+          .empty());
+  EXPECT_TRUE(hoist::loadFrameFields(folder.write("a.pts", "1\n1 2 3\n")).empty());
+  EXPECT_THROW(hoist::loadFrameFields(folder.write("bad.pcd", "no header\n")),
+               LoadError);
 }
 
 } // namespace

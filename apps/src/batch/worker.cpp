@@ -2,13 +2,13 @@
 
 #include "batch/thumbnail.h"
 #include "failures.h"
+#include "png.h"
 #include "recognizer.h"
 
 #include <hoist/data/load_error.h>
 #include <hoist/data/result_io.h>
 
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
@@ -48,14 +48,6 @@ labelledPcd(const Frame& frame, const FrameResult& result)
           out, blob, cloud.sensor_origin_, cloud.sensor_orientation_) < 0)
     throw FileError("its labelled cloud cannot be compressed");
   return out.str();
-}
-
-std::string
-overlayPng(const cv::Mat3b& overlay)
-{
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", overlay, bytes);
-  return {bytes.begin(), bytes.end()};
 }
 
 class Worker {
@@ -119,7 +111,7 @@ private:
       else if (format == "pcd")
         message.push_back(labelledPcd(frame, result));
       else
-        message.push_back(overlayPng(recognizer_.overlay(frame, result)));
+        message.push_back(pngBytes(recognizer_.overlay(frame, result)));
     }
     message[3] = microseconds(read - start);
     message[4] = microseconds(recognized - read);

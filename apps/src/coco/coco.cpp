@@ -1,10 +1,10 @@
 #include "coco/fit_box.h"
 #include "commands.h"
 #include "failures.h"
+#include "png.h"
 #include "validators.h"
 
 #include <hoist/data/annotation.h>
-#include <hoist/data/atomic_file.h>
 #include <hoist/data/coco.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -144,11 +144,8 @@ public:
                 depth,
                 out);
 
-    std::vector<uchar> png;
-    cv::imencode(".png", instances, png);
     const fs::path folder(settings_.output);
-    writeFileAtomically(folder / out.files.instances,
-                        {reinterpret_cast<const char*>(png.data()), png.size()});
+    savePng((folder / out.files.instances).string(), instances);
     saveAnnotation(folder / (name + ".json"), out);
     objects_ += out.objects.size();
     without_box_ += out.other_objects.size();

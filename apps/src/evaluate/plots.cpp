@@ -2,10 +2,7 @@
 
 #include "evaluate/chart.h"
 #include "failures.h"
-
-#include <hoist/data/atomic_file.h>
-
-#include <opencv2/imgcodecs.hpp>
+#include "png.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +20,8 @@ constexpr std::size_t least_errors = 10; // fewer make no distribution
 void
 save(const std::string& folder, const std::string& name, const cv::Mat3b& picture)
 {
-  std::vector<uchar> bytes;
-  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
-  writeFileAtomically(std::filesystem::path(folder) / name,
-                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  constexpr int smallest = 9;
+  savePng((std::filesystem::path(folder) / name).string(), picture, smallest);
 }
 
 // Share of the numbers that are at most x, as a line that starts at 0.

@@ -40,6 +40,12 @@ pointText(const Eigen::Vector3d& p)
   return fmt::format("{:.3f} {:.3f} {:.3f}", p.x(), p.y(), p.z());
 }
 
+std::string
+turnText(const Eigen::Quaterniond& q)
+{
+  return fmt::format("{:.3f} {:.3f} {:.3f} {:.3f}", q.w(), q.x(), q.y(), q.z());
+}
+
 } // namespace
 
 std::vector<std::string>
@@ -63,9 +69,7 @@ cardText(const Scene& scene, std::size_t cuboid)
                               1000 * c.center_sigma.z()));
   if (scene.result.pose_known)
     lines.push_back("  world " + pointText(scene.result.pose * c.center) + " m");
-  const Eigen::Quaterniond& q = f.orientation;
-  lines.push_back(
-      fmt::format("turn    {:.3f} {:.3f} {:.3f} {:.3f}", q.w(), q.x(), q.y(), q.z()));
+  lines.push_back("turn    " + turnText(f.orientation));
   if (std::isfinite(c.rotation_sigma))
     lines.push_back(fmt::format("  sigma {:.2f} deg", c.rotation_sigma * 180 / M_PI));
   lines.push_back(
@@ -98,6 +102,7 @@ rejectionText(const Scene& scene, std::size_t rejection)
                       100 * c.size[1],
                       100 * c.size[2]),
           "centre  " + pointText(c.center) + " m",
+          "turn    " + turnText(Eigen::Quaterniond(c.axes)),
           fmt::format("score   {:.2f}", c.score),
           fmt::format("flat    {:.2f}", verdict.flat),
           fmt::format("outline {:.2f}", verdict.outline),

@@ -11,7 +11,8 @@ class PCLVisualizer;
 namespace hoist {
 
 /** \brief The cloud with the colour handlers that pcl_viewer gives it, chosen by its
- *  keys 1 to 5 (one colour, x, y, z, rgb), and one more, 6: by object. */
+ *  keys: 1 to 5 are one colour, x, y, z, rgb, 6 is by object, and 7, 8, 9, 0, Ctrl+1
+ * and so on are the other fields of the file in their order. */
 class CloudLayer {
 public:
   explicit CloudLayer(pcl::visualization::PCLVisualizer& visualizer);

@@ -4,6 +4,7 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkVersionMacros.h>
 
 #include <EGL/egl.h>
@@ -89,7 +90,8 @@ EglWindow::Context::close()
     eglDestroyContext(display, context);
   if (surface != EGL_NO_SURFACE)
     eglDestroySurface(display, surface);
-  eglTerminate(display);
+  // The display stays open for the process to end: eglTerminate() would unload Mesa's
+  // driver, which leaves memory of its own behind.
   *this = Context();
 }
 
@@ -128,6 +130,19 @@ answer(vtkObject*, unsigned long event, void*, void* question)
     *static_cast<bool*>(question) = true; // the only context of this thread
 }
 
+// VTK counts on what it sets in windows of its own: of things at one depth, such as the
+// words over everything, the later one is seen. OpenGL begins with the first one, but
+// VTK's record of its state says otherwise, so that it would set nothing: first another
+// value.
+void
+letLaterWin(vtkObject* window, unsigned long, void*, void*)
+{
+  constexpr unsigned int less = 0x0201, less_or_equal = 0x0203; // GL_LESS, GL_LEQUAL
+  vtkOpenGLState* state = vtkOpenGLRenderWindow::SafeDownCast(window)->GetState();
+  state->vtkglDepthFunc(less);
+  state->vtkglDepthFunc(less_or_equal);
+}
+
 } // namespace
 
 EglWindow::EglWindow() : context_(std::make_unique<Context>())
@@ -148,6 +163,9 @@ EglWindow::EglWindow() : context_(std::make_unique<Context>())
   window->AddObserver(vtkCommand::WindowSupportsOpenGLEvent, callback);
   window->AddObserver(vtkCommand::WindowIsCurrentEvent, callback);
   window->AddObserver(vtkCommand::WindowMakeCurrentEvent, callback);
+  const auto at_start = vtkSmartPointer<vtkCallbackCommand>::New();
+  at_start->SetCallback(letLaterWin);
+  window->AddObserver(vtkCommand::StartEvent, at_start);
   window->SetReadyForRendering(true);
   window->SetOffScreenRendering(1);
   window_ = window;

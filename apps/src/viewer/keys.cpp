@@ -91,6 +91,7 @@ keysText()
           "click       in the image: pick a pixel\n"
           "As in pcl_viewer:\n"
           "1-6         colour: one, by x, y, z, rgb, by object\n"
+          "7-9 0 ^1-^0 colour: other fields of the file\n"
           "+ -         size of the points\n"
           "r, f        reset the camera, fly to a point\n"
           "Ctrl+s, r   save, restore the camera\n"

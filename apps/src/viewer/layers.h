@@ -39,6 +39,13 @@ const std::array<LayerInfo, layer_count>& layerTable();
 
 const LayerInfo& infoOf(Layer layer);
 
+/** \brief What is drawn stronger or more fully than the rest. */
+struct Highlight {
+  int cuboid = -1;    ///< number of the chosen cuboid; -1 for none
+  int rejection = -1; ///< of shownRejections(); -1 for none
+  bool labels = true; ///< whether cuboids show their sizes
+};
+
 /** \brief Which layers are shown. */
 class LayerSet {
 public:

@@ -1,10 +1,10 @@
 #include "viewer/picture.h"
 
 #include "background.h"
+#include "cuboid_drawing.h"
 #include "drawing.h"
 #include "labels.h"
 #include "palette.h"
-#include "size_text.h"
 #include "wireframe.h"
 
 #include <hoist/filters/edge_kind.h>
@@ -19,18 +19,15 @@
 namespace hoist {
 namespace {
 
-constexpr int min_columns = 1280;
-
 class Painter {
 public:
-  Painter(const Scene& scene, const LayerSet& layers, int selected, bool labels)
+  Painter(const Scene& scene, const LayerSet& layers, const Highlight& highlight)
   : scene_(scene)
   , images_(*scene.frame->images)
   , layers_(layers)
-  , selected_(selected)
-  , labels_(labels)
+  , highlight_(highlight)
   , scale_(pictureScale(scene))
-  , text_scale_(2 * std::max(1, images_.width() * scale_ / min_columns))
+  , text_scale_(2 * textScaleOf(images_.width() * scale_)) // it is seen smaller
   {
   }
 
@@ -47,8 +44,8 @@ public:
     segments();
     vertices();
     if (images_.intrinsics.valid()) {
-      boxes(Layer::rejected, rejectedBoxes());
-      boxes(Layer::truth, trueBoxes());
+      boxes(Layer::rejected, rejectedBoxes(), highlight_.rejection);
+      boxes(Layer::truth, trueBoxes(), -1);
       cuboids();
     }
     detections();
@@ -123,7 +120,7 @@ private:
 
   // Boxes beside the results: thin, of one colour.
   void
-  boxes(Layer layer, const std::vector<Cuboid>& cuboids)
+  boxes(Layer layer, const std::vector<Cuboid>& cuboids, int strong)
   {
     if (!layers_.shows(layer))
       return;
@@ -134,52 +131,34 @@ private:
                        piece.from,
                        piece.to,
                        infoOf(layer).color,
-                       std::max(1, scale_ / 2),
+                       static_cast<int>(i) == strong ? scale_ + 1
+                                                     : std::max(1, scale_ / 2),
                        3 * scale_);
   }
 
   void
   cuboids()
   {
-    std::vector<Cuboid> cuboids;
-    for (const RecognizedCuboid& recognized : scene_.result.cuboids)
-      cuboids.push_back(recognized.cuboid);
+    const std::vector<Cuboid> cuboids = cuboidsOf(scene_);
     const Wireframes wireframes(cuboids, images_, scale_);
     const cv::Mat1i owners = wireframes.owners(picture_.size());
+    constexpr double strong = 0.28; // a layer of its own may cover the picture
     if (layers_.shows(Layer::faces))
-      for (int y = 0; y < picture_.rows; ++y)
-        for (int x = 0; x < picture_.cols; ++x)
-          if (const int i = owners(y, x); i >= 0) {
-            const cv::Scalar color = cuboidColor(static_cast<std::size_t>(i));
-            for (int c = 0; c < 3; ++c)
-              picture_(y, x)[c] = cv::saturate_cast<unsigned char>(
-                  0.72 * picture_(y, x)[c] + 0.28 * color[c]);
-          }
+      tintCuboids(picture_, owners, strong);
     if (!layers_.shows(Layer::cuboids))
       return;
-    for (const bool hidden : {true, false})
-      for (std::size_t i = 0; i < cuboids.size(); ++i)
-        for (const EdgePiece& piece : wireframes.edges(i))
-          if (piece.hidden == hidden) {
-            const bool strong = static_cast<int>(i) == selected_;
-            if (hidden)
-              drawDashedLine(
-                  picture_, piece.from, piece.to, cuboidColor(i), 1, 4 * scale_);
-            else
-              drawHaloLine(picture_,
-                           piece.from,
-                           piece.to,
-                           cuboidColor(i),
-                           strong ? 2 * scale_ + 1 : scale_ + 1);
-          }
-    if (!labels_)
+    std::vector<std::vector<EdgePiece>> edges;
+    std::vector<int> thickness(cuboids.size(), scale_ + 1);
+    for (std::size_t i = 0; i < cuboids.size(); ++i)
+      edges.push_back(wireframes.edges(i));
+    if (highlight_.cuboid >= 0)
+      thickness.at(static_cast<std::size_t>(highlight_.cuboid)) = 2 * scale_ + 1;
+    drawCuboidEdges(picture_, edges, scale_, thickness);
+    if (!highlight_.labels)
       return;
     LabelPlacer placer(owners, text_scale_);
     for (std::size_t i = 0; i < cuboids.size(); ++i)
-      placer.add({"#" + std::to_string(i + 1) + "  " + sizeText(cuboids[i], 0) + " x " +
-                  sizeText(cuboids[i], 1) + " x " + sizeText(cuboids[i], 2) + " cm"},
-                 static_cast<int>(i),
-                 cuboidColor(i));
+      placer.add({numberAndSizes(cuboids[i], i)}, static_cast<int>(i), cuboidColor(i));
     placer.draw(picture_);
   }
 
@@ -210,8 +189,7 @@ private:
   const Scene& scene_;
   const FrameImages& images_;
   const LayerSet& layers_;
-  int selected_;
-  bool labels_;
+  const Highlight& highlight_;
   int scale_;
   int text_scale_;
   cv::Mat3b picture_;
@@ -222,21 +200,18 @@ private:
 int
 pictureScale(const Scene& scene)
 {
-  if (!scene.frame)
-    return 1;
-  const int width = std::max(1, scene.frame->images->width());
-  return std::max(1, (min_columns + width - 1) / width);
+  return scene.frame ? enlargement(scene.frame->images->width()) : 1;
 }
 
 cv::Mat3b
-drawPicture(const Scene& scene, const LayerSet& layers, int selected, bool labels)
+drawPicture(const Scene& scene, const LayerSet& layers, const Highlight& highlight)
 {
   if (!scene.frame) {
     cv::Mat3b picture(720, 960, cv::Vec3b(24, 24, 24));
     drawText(picture, "no picture", {400, 360}, 2);
     return picture;
   }
-  return Painter(scene, layers, selected, labels).paint();
+  return Painter(scene, layers, highlight).paint();
 }
 
 } // namespace hoist

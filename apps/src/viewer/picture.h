@@ -11,10 +11,8 @@ namespace hoist {
 int pictureScale(const Scene& scene);
 
 /** \brief The frame's picture with the layers that are shown; a dark card with words
- *  where there is no frame.
- *  \param selected number of the cuboid that is drawn stronger; -1 for none
- *  \param labels whether cuboids get their sizes beside them */
+ *  where there is no frame. */
 cv::Mat3b
-drawPicture(const Scene& scene, const LayerSet& layers, int selected, bool labels);
+drawPicture(const Scene& scene, const LayerSet& layers, const Highlight& highlight);
 
 } // namespace hoist

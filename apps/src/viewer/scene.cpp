@@ -11,6 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// As many as there are keys for, beside those of every frame: 7 to 9, 0, Ctrl+1 to 0.
+constexpr std::size_t most_fields = 14;
+
 std::string
 stemOf(const std::string& file)
 {
@@ -122,10 +125,19 @@ findDetections(const std::string& cloud, const std::string& given)
   return firstFile({folder / name});
 }
 
+std::vector<Cuboid>
+cuboidsOf(const Scene& scene)
+{
+  std::vector<Cuboid> cuboids;
+  for (const RecognizedCuboid& recognized : scene.result.cuboids)
+    cuboids.push_back(recognized.cuboid);
+  return cuboids;
+}
+
 std::vector<CuboidVerdict>
 shownRejections(const Scene& scene)
 {
-  constexpr std::size_t most = 25;
+  constexpr std::size_t most = 25; // more lines hide each other
   const std::size_t n = std::min(most, scene.rejected.size());
   return {scene.rejected.begin(),
           scene.rejected.begin() + static_cast<std::ptrdiff_t>(n)};
@@ -155,10 +167,15 @@ makeScene(const std::string& file,
   scene->file = file;
   scene->result.scene = stemOf(file);
   try {
-    if (before && before->frame)
+    if (before && before->frame) {
       scene->frame = before->frame;
-    else
+      scene->fields = before->fields;
+    }
+    else {
       scene->frame = std::make_shared<Frame>(openFrame(file));
+      scene->fields =
+          std::make_shared<std::vector<FrameField>>(loadFrameFields(file, most_fields));
+    }
     scene->warnings = scene->frame->loaded.warnings;
     scene->truth = readTruth(file, files.truth, scene->warnings);
     scene->detections =

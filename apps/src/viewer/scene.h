@@ -4,6 +4,7 @@
 #include "viewer/detections.h"
 
 #include <hoist/data/annotation.h>
+#include <hoist/data/frame_fields.h>
 #include <hoist/segmentation/full_mode.h>
 #include <hoist/segmentation/line_segment.h>
 
@@ -23,6 +24,8 @@ struct Scene {
   std::string error;                  ///< why there is nothing to show; "" if there is
   std::vector<std::string> warnings;  ///< of the reader and about files beside it
   std::shared_ptr<const Frame> frame; ///< null where the file cannot be read
+  /// What the file tells of its points beyond place and colour, with the frame.
+  std::shared_ptr<const std::vector<FrameField>> fields;
 
   FrameResult result; ///< empty where the frame cannot be segmented
   double time = 0;    ///< of the recognition [ms]
@@ -47,6 +50,9 @@ struct Scene {
     return frame ? frame->loaded.pose : Eigen::Isometry3d::Identity();
   }
 };
+
+/** \brief The cuboids that were found. */
+std::vector<Cuboid> cuboidsOf(const Scene& scene);
 
 /** \brief The rejections worth showing: of all that were thought of the nearest to a
  *  cuboid, at most 25. */

@@ -13,6 +13,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 namespace hoist {
 namespace {
@@ -56,7 +58,7 @@ medianDepth(const FrameImages& images, const cv::Rect& part)
 } // namespace
 
 SceneLayers::SceneLayers(vtkRenderer* among_points, vtkRenderer* above)
-: among_points_(among_points), above_(above)
+: among_points_(among_points), above_(above), cuboids_(above)
 {
 }
 
@@ -73,6 +75,7 @@ SceneLayers::clear()
     above_->RemoveViewProp(prop);
   }
   props_.clear();
+  cuboids_.clear();
 }
 
 void
@@ -92,7 +95,9 @@ SceneLayers::addAbove(const vtkSmartPointer<vtkProp>& prop)
 }
 
 void
-SceneLayers::show(const Scene& scene, const LayerSet& layers, int selected, bool labels)
+SceneLayers::show(const Scene& scene,
+                  const LayerSet& layers,
+                  const Highlight& highlight)
 {
   clear();
   if (!scene.hasFrame())
@@ -105,11 +110,11 @@ SceneLayers::show(const Scene& scene, const LayerSet& layers, int selected, bool
   if (layers.shows(Layer::faces))
     addFaces(scene);
   if (layers.shows(Layer::rejected))
-    addRejected(scene);
+    addRejected(scene, highlight.rejection);
   if (layers.shows(Layer::truth) && scene.truth)
     addTruth(scene);
   if (layers.shows(Layer::cuboids))
-    addCuboids(scene, selected, labels);
+    addCuboids(scene, highlight);
   if (layers.shows(Layer::uncertainty))
     addUncertainty(scene);
   if (layers.shows(Layer::detections))
@@ -162,18 +167,23 @@ SceneLayers::addVertices(const Scene& scene)
 }
 
 void
-SceneLayers::addCuboids(const Scene& scene, int selected, bool labels)
+SceneLayers::addCuboids(const Scene& scene, const Highlight& highlight)
 {
   const Eigen::Isometry3d pose = scene.pose();
   for (std::size_t i = 0; i < scene.result.cuboids.size(); ++i) {
     const Cuboid& cuboid = scene.result.cuboids[i].cuboid;
     const cv::Scalar color = cuboidColor(i);
-    const bool strong = static_cast<int>(i) == selected;
-    addAbove(linesActor(edgesOf(cuboid, pose), color, strong ? 5.0F : 3.0F, 1.0));
-    if (!labels)
+    const bool strong = static_cast<int>(i) == highlight.cuboid;
+    const Eigen::Matrix<double, 3, 8> corners = cuboid.corners();
+    // dashes of a few pixels, seen from the sensor
+    const double dash = 0.006 * cuboid.center.norm();
+    cuboids_.add((pose * corners.colwise().homogeneous()).eval(),
+                 color,
+                 strong ? 5.0F : 3.0F,
+                 dash);
+    if (!highlight.labels)
       continue;
     // each size stands on the edge that it measures, in front
-    const Eigen::Matrix<double, 3, 8> corners = cuboid.corners();
     const int near = nearCorner(cuboid);
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d middle =
@@ -226,18 +236,26 @@ SceneLayers::addUncertainty(const Scene& scene)
 }
 
 void
-SceneLayers::addRejected(const Scene& scene)
+SceneLayers::addRejected(const Scene& scene, int selected)
 {
   std::vector<Line> lines;
+  int number = 0;
   const cv::Scalar& color = infoOf(Layer::rejected).color;
-  std::map<std::string, int> named;
+  std::set<std::string> named;
   for (const CuboidVerdict& verdict : shownRejections(scene)) {
     const std::vector<Line> edges = edgesOf(verdict.cuboid, scene.pose());
     lines.insert(lines.end(), edges.begin(), edges.end());
-    // enough of each to be read; the card of any box tells the rest
-    if (++named[verdict.rejected] <= 2)
+    const bool strong = number++ == selected;
+    if (strong)
+      addAbove(linesActor(edges, color, 4.0F, 1.0));
+    // Once for each reason; the card of any box tells its own. Most boxes are about the
+    // same place, so the words go above and below each other: 0, 1, -1, 2, -2 rows.
+    const auto n = static_cast<int>(named.size());
+    constexpr int row = 18; // [px]
+    const int lift = strong ? 0 : (n % 2 == 0 ? -n / 2 : (n + 1) / 2) * row;
+    if (named.insert(verdict.rejected).second || strong)
       addAbove(labelActor(
-          verdict.rejected, scene.pose() * verdict.cuboid.center, color, 12));
+          verdict.rejected, scene.pose() * verdict.cuboid.center, color, 12, lift));
   }
   addAbove(linesActor(lines, color, 1.0F, 0.8));
 }

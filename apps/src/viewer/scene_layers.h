@@ -2,6 +2,7 @@
 
 #include "viewer/layers.h"
 #include "viewer/scene.h"
+#include "viewer/wire_boxes.h"
 
 #include <vtkSmartPointer.h>
 
@@ -21,10 +22,8 @@ public:
   SceneLayers(const SceneLayers&) = delete;
   SceneLayers& operator=(const SceneLayers&) = delete;
 
-  /** \brief Puts a scene in the place of the one before.
-   *  \param selected the cuboid that is drawn stronger, -1 for none
-   *  \param labels whether cuboids show their sizes */
-  void show(const Scene& scene, const LayerSet& layers, int selected, bool labels);
+  /** \brief Puts a scene in the place of the one before. */
+  void show(const Scene& scene, const LayerSet& layers, const Highlight& highlight);
 
   void clear();
 
@@ -32,10 +31,10 @@ private:
   void addEdges(const Scene& scene, const LayerSet& layers);
   void addSegments(const Scene& scene);
   void addVertices(const Scene& scene);
-  void addCuboids(const Scene& scene, int selected, bool labels);
+  void addCuboids(const Scene& scene, const Highlight& highlight);
   void addFaces(const Scene& scene);
   void addUncertainty(const Scene& scene);
-  void addRejected(const Scene& scene);
+  void addRejected(const Scene& scene, int selected);
   void addDetections(const Scene& scene);
   void addTruth(const Scene& scene);
   void addAmongPoints(const vtkSmartPointer<vtkProp>& prop);
@@ -43,6 +42,7 @@ private:
 
   vtkRenderer* among_points_;
   vtkRenderer* above_;
+  WireBoxes cuboids_;
   std::vector<vtkSmartPointer<vtkProp>> props_;
 };
 

@@ -26,6 +26,15 @@ SceneLoader::~SceneLoader()
   thread_.join();
 }
 
+bool
+SceneLoader::stop(std::chrono::milliseconds patience)
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  stop_ = true;
+  changed_.notify_all();
+  return changed_.wait_for(lock, patience, [this] { return stopped_; });
+}
+
 void
 SceneLoader::want(std::size_t index)
 {
@@ -90,6 +99,23 @@ SceneLoader::nextJob(std::size_t& index) const
   return false;
 }
 
+// Out of the map, for the caller to give back without the lock.
+std::vector<Scene::ConstPtr>
+SceneLoader::takeUnwanted()
+{
+  const std::vector<std::size_t> order = wantedOrder();
+  std::vector<Scene::ConstPtr> unwanted;
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    if (std::count(order.begin(), order.end(), entry->first) != 0) {
+      ++entry;
+      continue;
+    }
+    unwanted.push_back(std::move(entry->second.scene));
+    entry = entries_.erase(entry);
+  }
+  return unwanted;
+}
+
 void
 SceneLoader::work()
 {
@@ -104,25 +130,31 @@ SceneLoader::work()
       continue;
     }
     // the old ones go first, so that there are never more than the capacity
-    const std::vector<std::size_t> order = wantedOrder();
-    for (auto entry = entries_.begin(); entry != entries_.end();)
-      entry = std::count(order.begin(), order.end(), entry->first) != 0
-                  ? std::next(entry)
-                  : entries_.erase(entry);
-    const auto old = entries_.find(index);
-    const Scene::ConstPtr before = old == entries_.end() ? nullptr : old->second.scene;
+    std::vector<Scene::ConstPtr> old = takeUnwanted();
+    const auto known = entries_.find(index);
+    Scene::ConstPtr before = known == entries_.end() ? nullptr : known->second.scene;
     const std::size_t revision = revision_;
-    if (recognizer_revision != revision) {
-      recognizer = std::make_unique<Recognizer>(settings_);
-      recognizer_revision = revision;
-    }
+    const RecognizeSettings settings = settings_;
     activity_ = (before ? "recognising " : "loading ") +
                 std::filesystem::path(files_[index]).filename().string();
     lock.unlock();
+    old.clear();
+    if (recognizer_revision != revision) {
+      recognizer = std::make_unique<Recognizer>(settings);
+      recognizer_revision = revision;
+    }
     Scene::ConstPtr scene = makeScene(files_[index], beside_, *recognizer, before);
+    before = nullptr;
     lock.lock();
-    entries_[index] = {std::move(scene), revision};
+    Entry& entry = entries_[index];
+    entry.revision = revision;
+    entry.scene.swap(scene);
+    lock.unlock();
+    scene = nullptr; // the one before
+    lock.lock();
   }
+  stopped_ = true;
+  changed_.notify_all();
 }
 
 } // namespace hoist

@@ -123,9 +123,11 @@ vtkSmartPointer<vtkProp>
 labelActor(const std::string& text,
            const Eigen::Vector3d& at,
            const cv::Scalar& color,
-           int size)
+           int size,
+           int lift)
 {
   auto actor = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  actor->SetDisplayOffset(0, lift);
   actor->SetInput(text.c_str());
   actor->SetPosition(at.x(), at.y(), at.z());
   vtkTextProperty* property = actor->GetTextProperty();

@@ -39,10 +39,12 @@ vtkSmartPointer<vtkActor> ellipsoidActor(const Eigen::Vector3d& center,
                                          const Eigen::Matrix3d& half_axes,
                                          const cv::Scalar& color);
 
-/** \brief Words that always face the viewer. */
+/** \brief Words that always face the viewer.
+ *  \param lift so many pixels higher than their place */
 vtkSmartPointer<vtkProp> labelActor(const std::string& text,
                                     const Eigen::Vector3d& at,
                                     const cv::Scalar& color,
-                                    int size);
+                                    int size,
+                                    int lift = 0);
 
 } // namespace hoist

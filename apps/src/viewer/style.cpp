@@ -4,6 +4,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
 
 #include <utility>
 
@@ -16,6 +17,8 @@ ViewerStyle::setHandlers(KeyHandler keys, ClickHandler clicks)
 {
   keys_ = std::move(keys);
   clicks_ = std::move(clicks);
+  if (lut_actor_)
+    lut_actor_->SetPosition(0.1, 0.06); // above the line at the bottom
   // PCL's picker looks through all actors; clicks come to OnLeftButtonDown without it
   RemoveObservers(vtkCommand::LeftButtonPressEvent);
 }

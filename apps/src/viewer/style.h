@@ -13,13 +13,6 @@ public:
       ViewerStyle,
       pcl::visualization::PCLVisualizerInteractorStyle) static ViewerStyle* New();
 
-  /// \return true if the key was the viewer's own
-  using KeyHandler =
-      std::function<bool(const std::string& symbol, bool ctrl, bool alt)>;
-  /// \param x, y of the window [px], from its lower left corner
-  /// \return true if the click was the viewer's own
-  using ClickHandler = std::function<bool(int x, int y, bool shift)>;
-
   void setHandlers(KeyHandler keys, ClickHandler clicks);
 
   /** \brief In this renderer nothing turns: it is moved and enlarged. */

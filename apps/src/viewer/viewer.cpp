@@ -1,8 +1,8 @@
 #include "viewer/viewer.h"
 
 #include "batch/stop_signal.h"
+#include "png.h"
 #include "viewer/picture.h"
-#include "viewer/png.h"
 
 #include <fmt/format.h>
 
@@ -58,16 +58,39 @@ Viewer::Viewer(std::vector<std::string> files,
 }
 
 void
-Viewer::run()
+Viewer::run(const StopSignal& signal)
 {
-  const StopSignal stop;
   showWords();
-  window_.render();
-  while (!window_.closed() && stop.received() == 0) {
+  draw();
+  while (!window_.closed() && signal.received() == 0) {
     window_.processEvents();
     if (poll() && !window_.closed())
-      window_.render();
+      draw();
   }
+}
+
+bool
+Viewer::stop()
+{
+  // a frame and its recognition take less; a file of gigabytes takes minutes
+  constexpr std::chrono::milliseconds patience(2000);
+  return loader_.stop(patience);
+}
+
+void
+Viewer::draw()
+{
+  window_.render();
+  if (!given_.verbose || waiting_ || !asked_)
+    return;
+  window_.waitUntilDrawn();
+  const std::chrono::duration<double, std::milli> time =
+      std::chrono::steady_clock::now() - *asked_;
+  fmt::print(stderr,
+             "on the screen {:.0f} ms after it was asked for, {}\n",
+             time.count(),
+             was_ready_ ? "was ready" : "was not ready");
+  asked_.reset();
 }
 
 bool
@@ -95,17 +118,11 @@ Viewer::takeScreenshots()
   return good;
 }
 
-// Takes over what the thread has made; true if there is something new to see.
+// Looks what the thread does; true if there is something new to see.
 bool
 Viewer::poll()
 {
-  bool changed = false;
-  if (waiting_)
-    if (const Scene::ConstPtr scene = loader_.wanted()) {
-      waiting_ = false;
-      showScene(scene);
-      changed = true;
-    }
+  bool changed = takeOver();
   const std::string progress = loader_.activity();
   if (progress != progress_ || window_.size() != drawn_size_) {
     progress_ = progress;
@@ -118,12 +135,35 @@ Viewer::poll()
   return changed;
 }
 
+// Takes over the wanted scene if it is made.
+bool
+Viewer::takeOver()
+{
+  if (!waiting_)
+    return false;
+  const Scene::ConstPtr scene = loader_.wanted();
+  if (!scene)
+    return false;
+  waiting_ = false;
+  showScene(scene);
+  return true;
+}
+
 void
 Viewer::step(std::size_t index)
 {
   index_ = index;
   message_.clear();
   loader_.want(index);
+  await();
+}
+
+// Another scene is wanted from now on.
+void
+Viewer::await()
+{
+  asked_ = std::chrono::steady_clock::now();
+  was_ready_ = loader_.wanted() != nullptr;
   waiting_ = true;
 }
 
@@ -163,9 +203,9 @@ Viewer::showLayers()
   if (!scene_)
     return;
   cloud_.setVisible(shown_.shows(Layer::cloud));
-  layers_.show(*scene_, shown_, selected_, labels_);
-  image_.setPicture(drawPicture(*scene_, shown_, selected_, labels_),
-                    pictureScale(*scene_));
+  const Highlight highlight{selected_, selected_rejection_, labels_};
+  layers_.show(*scene_, shown_, highlight);
+  image_.setPicture(drawPicture(*scene_, shown_, highlight), pictureScale(*scene_));
   mark(pixel_);
 }
 

@@ -11,11 +11,15 @@
 #include "viewer/viewer_settings.h"
 #include "viewer/window.h"
 
+#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace hoist {
+
+class StopSignal;
 
 /** \brief The program: what is shown of which file, and what keys and clicks do. */
 class Viewer {
@@ -29,7 +33,12 @@ public:
          ViewerWindow::Kind kind);
 
   /** \brief Until the user ends it, or a signal does. */
-  void run();
+  void run(const StopSignal& signal);
+
+  /** \brief Ends the thread that loads.
+   *  \return false if it is still at a file that takes long; the process may be ended
+   *          then, nothing of that file will be needed */
+  bool stop();
 
   /** \brief Pictures of the first files instead.
    *  \return whether all could be read
@@ -42,13 +51,19 @@ private:
   bool onClick(int x, int y, bool shift);
   void act(KeyAction action);
   bool poll();
+  bool takeOver();
   void step(std::size_t index);
+  void await();
   void tune(bool changed);
 
   // what is picked
   void pickPixel(cv::Point pixel, bool card);
   void pickInSpace(int x, int y);
+  void pickBox(const SightLine& line);
   void select(int cuboid);
+  void selectRejection(int rejection);
+  void selectNext();
+  void printCard() const;
   void mark(cv::Point pixel);
   void unpick();
 
@@ -63,11 +78,13 @@ private:
   void showScene(const Scene::ConstPtr& scene);
   void showLayers();
   void showWords();
+  void draw();
   void placeCamera();
   void arrange();
   ViewCamera firstCamera(const Scene& scene) const;
   HudContent words() const;
   std::vector<HudLine> legend() const;
+  std::vector<std::string> cardLines() const;
   std::vector<HudLine> card() const;
   void say(const std::string& text);
 
@@ -89,7 +106,7 @@ private:
   bool waiting_ = true;                                    ///< for the wanted scene
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity(); ///< of the scene before
   int selected_ = -1;                                      ///< cuboid
-  int selected_rejection_ = -1;
+  int selected_rejection_ = -1;                            ///< of shownRejections()
   cv::Point pixel_{-1, -1};
   vtkSmartPointer<vtkProp> marker_;
   bool labels_ = true;
@@ -98,6 +115,8 @@ private:
   Layout layout_ = Layout::both;
   std::string message_;
   std::string progress_;
+  std::optional<std::chrono::steady_clock::time_point> asked_; ///< for another scene
+  bool was_ready_ = false; ///< the thread had made it before it was asked for
   cv::Size drawn_size_;
 };
 

@@ -1,6 +1,4 @@
 // What the viewer does when a key is pressed or something is clicked.
-#include "viewer/card.h"
-#include "viewer/shapes.h"
 #include "viewer/viewer.h"
 
 #include <hoist/data/atomic_file.h>
@@ -10,11 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <vtkActor.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
-
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 namespace hoist {
@@ -28,7 +23,7 @@ Viewer::onKey(const std::string& symbol, bool ctrl, bool alt)
     shown_.toggle(*layer);
     showLayers();
     showWords();
-    window_.render();
+    draw();
     return true;
   }
   const std::optional<KeyAction> action = actionOf(symbol, ctrl, alt);
@@ -36,13 +31,14 @@ Viewer::onKey(const std::string& symbol, bool ctrl, bool alt)
     return false;
   try {
     act(*action);
+    takeOver(); // at once, where the thread was faster than the user
   }
   catch (const std::exception& error) { // e.g. a full disk: said, not died of
     fmt::print(stderr, "hoist_viewer: {}\n", error.what());
     message_ = error.what();
   }
   showWords();
-  window_.render();
+  draw();
   return *action != KeyAction::toggle_help; // PCL prints its own help as well
 }
 
@@ -64,8 +60,7 @@ Viewer::act(KeyAction action)
     step(last);
     break;
   case KeyAction::next_cuboid:
-    if (scene_ && !scene_->result.cuboids.empty())
-      select((selected_ + 1) % static_cast<int>(scene_->result.cuboids.size()));
+    selectNext();
     break;
   case KeyAction::close_card:
     help_shown_ = false;
@@ -112,8 +107,10 @@ Viewer::act(KeyAction action)
     break;
   case KeyAction::toggle_help:
     help_shown_ = !help_shown_;
-    if (help_shown_)
+    if (help_shown_) {
       fmt::print("{}{}", layerKeysText(), keysText());
+      std::fflush(stdout);
+    }
     break;
   case KeyAction::save_camera:
     saveCamera();
@@ -134,7 +131,7 @@ Viewer::tune(bool changed)
   }
   say(live_.settings().mode + " mode, " + live_.chosen());
   loader_.setSettings(live_.settings());
-  waiting_ = true;
+  await();
 }
 
 bool
@@ -151,107 +148,8 @@ Viewer::onClick(int x, int y, bool shift)
   else
     return false;
   showWords();
-  window_.render();
+  draw();
   return true;
-}
-
-void
-Viewer::unpick()
-{
-  selected_ = -1;
-  selected_rejection_ = -1;
-  mark({-1, -1});
-}
-
-void
-Viewer::mark(cv::Point pixel)
-{
-  pixel_ = pixel;
-  image_.mark(pixel);
-  if (marker_)
-    window_.above()->RemoveViewProp(marker_);
-  marker_ = nullptr;
-  if (pixel.x < 0 || !scene_ || !scene_->hasFrame() ||
-      !(scene_->frame->images->inverse_depth(pixel) > 0))
-    return;
-  const cv::Vec3f& p = scene_->frame->images->points(pixel);
-  const vtkSmartPointer<vtkActor> actor =
-      pointsActor({scene_->pose() * Eigen::Vector3d(p[0], p[1], p[2])},
-                  cv::Scalar(60, 60, 255),
-                  11.0F);
-  actor->GetProperty()->SetRenderPointsAsSpheres(true);
-  marker_ = actor;
-  window_.above()->AddViewProp(marker_);
-}
-
-void
-Viewer::pickPixel(cv::Point pixel, bool card)
-{
-  if (pixel.x < 0 || !scene_ || !scene_->hasFrame())
-    return;
-  const FrameImages& images = *scene_->frame->images;
-  mark(pixel);
-  const cv::Vec3f& p = images.points(pixel);
-  const int index = pixel.y * images.width() + pixel.x;
-  if (images.inverse_depth(pixel) > 0)
-    say(fmt::format("pixel {} {}: point {}: {:.4f} {:.4f} {:.4f} m",
-                    pixel.x,
-                    pixel.y,
-                    index,
-                    p[0],
-                    p[1],
-                    p[2]));
-  else
-    say(fmt::format("pixel {} {}: nothing was measured", pixel.x, pixel.y));
-  if (!card || !images.intrinsics.valid())
-    return;
-  std::vector<Cuboid> cuboids;
-  for (const RecognizedCuboid& recognized : scene_->result.cuboids)
-    cuboids.push_back(recognized.cuboid);
-  const Eigen::Vector3d ray = images.intrinsics.ray(pixel.x, pixel.y).normalized();
-  select(pickCuboid(cuboids, {Eigen::Vector3d::Zero(), ray, 0}));
-}
-
-void
-Viewer::pickInSpace(int x, int y)
-{
-  if (!scene_ || !scene_->hasFrame())
-    return;
-  constexpr double reach = 4.0; // [px]
-  SightLine line = window_.sightLine(x, y, reach);
-  const Eigen::Isometry3d to_sensor = scene_->pose().inverse();
-  line.origin = to_sensor * line.origin;
-  line.way = to_sensor.linear() * line.way;
-  const FrameImages& images = *scene_->frame->images;
-  const int index = pickPoint(images, line);
-  if (index >= 0)
-    pickPixel({index % images.width(), index / images.width()}, false);
-  std::vector<Cuboid> cuboids;
-  for (const RecognizedCuboid& recognized : scene_->result.cuboids)
-    cuboids.push_back(recognized.cuboid);
-  const int cuboid = pickCuboid(cuboids, line);
-  select(cuboid);
-  if (cuboid >= 0 || !shown_.shows(Layer::rejected))
-    return;
-  std::vector<Cuboid> rejected;
-  for (const CuboidVerdict& verdict : shownRejections(*scene_))
-    rejected.push_back(verdict.cuboid);
-  selected_rejection_ = pickCuboid(rejected, line);
-}
-
-void
-Viewer::select(int cuboid)
-{
-  selected_rejection_ = -1;
-  if (cuboid != selected_) {
-    selected_ = cuboid;
-    showLayers();
-  }
-  if (cuboid < 0)
-    return;
-  for (const std::string& line : cardText(*scene_, static_cast<std::size_t>(cuboid)))
-    fmt::print("{}\n", line);
-  std::fflush(stdout);
 }
 
 void

@@ -125,6 +125,11 @@ addOutput(CLI::App& program, ViewerSettings& s)
       ->configurable(false)
       ->type_name("FILE");
   program
+      .add_flag("-v,--verbose",
+                s.verbose,
+                "Say how long every step took until it was on the screen")
+      ->configurable(false);
+  program
       .add_option("--screenshot",
                   s.screenshot,
                   "Write a picture instead of opening a window; needs no display")

@@ -23,6 +23,7 @@ struct ViewerSettings {
   std::string screenshot;          ///< PNG; "" opens a window
   int frames = 1;                  ///< files to make screenshots of
   cv::Size size{1600, 720};        ///< of the window [px]
+  bool verbose = false;            ///< says how long steps take
   RecognizeSettings recognize;
 };
 

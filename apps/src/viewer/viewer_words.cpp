@@ -1,5 +1,4 @@
 // What the viewer says: legend, card, lines.
-#include "viewer/card.h"
 #include "viewer/viewer.h"
 
 #include <hoist/filters/edge_kind.h>
@@ -94,19 +93,15 @@ Viewer::legend() const
 std::vector<HudLine>
 Viewer::card() const
 {
-  std::vector<std::string> texts;
   std::optional<cv::Scalar> swatch;
   if (scene_ && selected_ >= 0) {
-    texts = cardText(*scene_, static_cast<std::size_t>(selected_));
     const CuboidFeatures& features =
         scene_->result.cuboids[static_cast<std::size_t>(selected_)].features;
     if (!features.color_name.empty())
       swatch = cv::Scalar(features.rgb[2], features.rgb[1], features.rgb[0]);
   }
-  else if (scene_ && selected_rejection_ >= 0)
-    texts = rejectionText(*scene_, static_cast<std::size_t>(selected_rejection_));
   std::vector<HudLine> lines;
-  for (const std::string& text : texts) {
+  for (const std::string& text : cardLines()) {
     lines.push_back({text, bright, {}, {}});
     if (text.rfind("colour", 0) == 0)
       lines.back().swatch = swatch;

@@ -55,6 +55,11 @@ ViewerWindow::ViewerWindow(const std::string& title, cv::Size size, Kind kind)
 
 ViewerWindow::~ViewerWindow()
 {
+  // The window holds its interactor, that its style, and PCL's style the window: a ring
+  // that nobody would free.
+  if (vtkRenderWindowInteractor* interactor =
+          visualizer_->getRenderWindow()->GetInteractor())
+    interactor->SetInteractorStyle(nullptr);
   space()->RemoveObserver(clip_observer_);
 }
 
@@ -252,6 +257,12 @@ void
 ViewerWindow::render()
 {
   visualizer_->getRenderWindow()->Render();
+}
+
+void
+ViewerWindow::waitUntilDrawn()
+{
+  visualizer_->getRenderWindow()->WaitForCompletion();
 }
 
 cv::Mat3b

@@ -74,6 +74,9 @@ public:
 
   void render();
 
+  /** \brief Until all that was asked of the graphics is on the screen. */
+  void waitUntilDrawn();
+
   /** \brief What the window shows. */
   cv::Mat3b capture();
 
