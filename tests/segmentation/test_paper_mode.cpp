@@ -5,6 +5,7 @@
 #include "scene_frames.h"
 
 #include <support/cuboid_compare.h>
+#include <support/sanitizers.h>
 
 #include <opencv2/core.hpp>
 
@@ -52,7 +53,7 @@ bestIou(const std::vector<Cuboid>& cuboids, const Cuboid& truth)
 // of OpenCV, whose Hough transform draws pixels in another order.
 TEST(PaperMode, FindsMostBoxesOnTheGround)
 {
-  constexpr int seeds = 40;
+  constexpr int seeds = test::draws(40);
   int found = 0;
   std::vector<double> centre, side, turn;
   for (int seed = 1; seed <= seeds; ++seed) {
