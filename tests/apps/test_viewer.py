@@ -57,7 +57,7 @@ class Headless(Base):
         picture = self.screenshot(self.scene(), "--camera", self.camera_file(),
                                   "--layers", "cuboids")
         self.assertEqual((picture.width, picture.height), SIZE)
-        letters = sum(max(picture.pixel(x, y)) > 150 for y in range(SIZE[1] // 2)
+        letters = sum(max(picture.pixel(x, y)) > 100 for y in range(SIZE[1] // 2)
                       for x in range(VIEWS, SIZE[0]))
         self.assertGreater(letters, 500, "no legend")
         result = recognized(self.scene())
