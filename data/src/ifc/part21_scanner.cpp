@@ -165,14 +165,11 @@ void
 Scanner::passText()
 {
   const std::size_t first = at_;
-  const std::string& s = *bytes_;
   // a doubled quote ends one text and begins the next: the same in the end
-  const void* end = nullptr;
-  if (first + 1 < s.size())
-    end = std::memchr(s.data() + first + 1, '\'', s.size() - first - 1);
-  if (end == nullptr)
+  const std::size_t end = bytes_->find('\'', first + 1);
+  if (end == std::string::npos)
     failAt(first, "expected a text to end with a quote");
-  at_ = static_cast<std::size_t>(static_cast<const char*>(end) - s.data()) + 1;
+  at_ = end + 1;
 }
 
 void
