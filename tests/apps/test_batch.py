@@ -565,7 +565,8 @@ class Isolation(BatchTest):
         self.assertEqual(self.strike(process, signal.SIGSEGV, 2), 3)
         head = self.record("in/slow.pcd")["batch"]
         self.assertEqual(head["cause"], "crash")
-        self.assertIn("signal 11", head["reason"])
+        if not SANITIZED:  # which catches the signal and ends with a code of its own
+            self.assertIn("signal 11", head["reason"])
         self.batch(*arguments, "-o", "out", "-q", code=3)  # stands
         self.batch(*arguments, "-o", "out", "-q", "--retry")  # and is forgiven
         self.assertEqual(self.record("in/slow.pcd")["batch"]["status"], "done")
