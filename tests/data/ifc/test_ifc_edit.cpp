@@ -334,9 +334,10 @@ TEST(IfcEdit, GoesOnAfterItsBytesWereAskedFor)
   }
   const std::string bytes = edit.part21().bytes();
   expectSound(bytes);
-  EXPECT_EQ(modelOf(bytes).file().ofType("IFCRELCONTAINEDINSPATIALSTRUCTURE").size(),
-            1u);
-  for (const IfcElement& element : modelOf(bytes).elements())
+  const IfcModel again = modelOf(bytes);
+  EXPECT_EQ(again.file().ofType("IFCRELCONTAINEDINSPATIALSTRUCTURE").size(), 1u);
+  EXPECT_EQ(again.elements().size(), 3u);
+  for (const IfcElement& element : again.elements())
     EXPECT_EQ(element.storey, "ground");
 }
 
