@@ -53,8 +53,7 @@ addCommon(CLI::App& command, RecognizeSettings& s)
               s.why.push_back(parsePixel(text));
           },
           "Say what was thought at this pixel and why it is in no cuboid; full mode; "
-          "may "
-          "be given more than once")
+          "may be given more than once")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->configurable(false)

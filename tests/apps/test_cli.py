@@ -450,12 +450,12 @@ class Recognize(CommandLine):
         frame = self.sample("scenes/stacked.pcd")
         models = {cuboid["model"] for cuboid in self.recognize(frame)["cuboids"]}
         self.assertNotIn("face", models)
-        some = self.recognize(frame, "--single-faces")["cuboids"]
-        for cuboid in some:
-            if cuboid["model"] == "face":
-                self.assertEqual(sum(cuboid["observed_faces"].values())
-                                 if isinstance(cuboid["observed_faces"], dict)
-                                 else sum(map(bool, cuboid["observed_faces"])), 1)
+        faces = [cuboid for cuboid in self.recognize(frame, "--single-faces")["cuboids"]
+                 if cuboid["model"] == "face"]
+        self.assertEqual(len(faces), 1)  # the ground, 1 m x 0.8 m
+        for side, expected in zip(sorted(faces[0]["size"], reverse=True), (1, 0.8)):
+            self.assertAlmostEqual(side, expected, delta=0.02)
+        self.assertIn("unknown", faces[0]["dimension_source"])
 
     def test_material_gives_a_weight(self):
         frame = self.sample("scenes/crate.pcd")

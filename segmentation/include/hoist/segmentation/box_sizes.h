@@ -50,8 +50,11 @@ sizeRejection(const CuboidHypothesis& hypothesis, const BoxSizes& sizes, double 
  *  catalogue that fit what is seen of it: EndSource::catalogue at the hidden end.
  *
  * A side of which neither end is seen stays as it is: the box could lie anywhere along
- * it.
- * \param hypotheses appended to
+ * it. A side that is seen may differ by the tolerance, three pixels and three sigma.
+ *
+ * \param sizes valid()
+ * \param camera valid intrinsics
+ * \param hypotheses camera frame [m]; appended to
  */
 HOIST_SEGMENTATION_EXPORT void
 completeFromCatalogue(const BoxSizes& sizes,

@@ -113,9 +113,10 @@ cuboidsFromFacePairs(const std::vector<PlanarFace>& faces,
 /** \brief Boxes of which one face alone is seen.
  *
  * For each face that ends along a rectangle. How far the box reaches behind it is not
- * known: that end is EndSource::unknown, put a pixel's footprint behind the face.
+ * known: that end is EndSource::unknown, put a pixel's footprint behind the face. Faces
+ * of fewer than 400 pixels are left out.
  *
- * \param hypotheses appended to
+ * \param hypotheses camera frame [m]; appended to
  */
 HOIST_SEGMENTATION_EXPORT void
 cuboidsFromSingleFaces(const std::vector<PlanarFace>& faces,
