@@ -299,8 +299,8 @@ loadOntology(const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  text << in.rdbuf(); // of a folder too, whose iterators would throw
-  if (!in.is_open() || text.bad())
+  text << in.rdbuf();
+  if (!in.is_open() || text.bad() || std::filesystem::is_directory(file))
     throw LoadError(file.string(), "", "cannot be read");
   return ontologyFromYaml(text.str(), file.string());
 }

@@ -109,7 +109,7 @@ TEST(Ontology, WhatIsNoOntologyIsRefused)
   EXPECT_NE(complaint("- 1").find("expected a map, found a list"), std::string::npos);
   EXPECT_NE(complaint("name: [1").find("not YAML"), std::string::npos);
   EXPECT_THROW(loadOntology("no/such.yaml"), LoadError);
-  EXPECT_THROW(loadOntology("."), LoadError);
+  EXPECT_THROW(loadOntology("."), LoadError); // a folder
 }
 
 TEST(Ontology, ThoseOfTheRepositoryAreGood)
